@@ -1,0 +1,65 @@
+// The registry's argument and result tokens, spelt out: the scalars of a function in order, and how a call is
+// made of them. Read by the OpenCL entry points, by the host build of the same functions and by the registry.
+//
+//   VNDF_SCALARS_<token>(S)  S(wo_x) S(wo_y) ... : one S(...) for each scalar
+//   VNDF_CALL_<token>        the call's arguments, made of variables named like the scalars
+//   VNDF_RESULTS_<result>(S) the scalars of a result; S(scalar, member), member of VNDF_REAL3 or VNDF_REAL4
+#ifndef VNDF_BATCH_SHAPES_H
+#define VNDF_BATCH_SHAPES_H
+
+#define VNDF_SCALARS2(S, v) S(v##_x) S(v##_y)
+#define VNDF_SCALARS3(S, v) S(v##_x) S(v##_y) S(v##_z)
+#define VNDF_CALL2(v) VNDF_MAKE2(v##_x, v##_y)
+#define VNDF_CALL3(v) VNDF_MAKE3(v##_x, v##_y, v##_z)
+
+#define VNDF_SCALARS_U(S) S(u1) S(u2)
+#define VNDF_CALL_U VNDF_MAKE2(u1, u2)
+
+#define VNDF_SCALARS_WO_ALPHA_U(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS2(S, alpha) VNDF_SCALARS_U(S)
+#define VNDF_CALL_WO_ALPHA_U VNDF_CALL3(wo), VNDF_CALL2(alpha), VNDF_CALL_U
+
+#define VNDF_SCALARS_WO_N_ALPHA1_U(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, n) S(alpha) VNDF_SCALARS_U(S)
+#define VNDF_CALL_WO_N_ALPHA1_U VNDF_CALL3(wo), VNDF_CALL3(n), alpha, VNDF_CALL_U
+
+#define VNDF_SCALARS_ALPHA_U(S) VNDF_SCALARS2(S, alpha) VNDF_SCALARS_U(S)
+#define VNDF_CALL_ALPHA_U VNDF_CALL2(alpha), VNDF_CALL_U
+
+#define VNDF_SCALARS_WM_ALPHA(S) VNDF_SCALARS3(S, wm) VNDF_SCALARS2(S, alpha)
+#define VNDF_CALL_WM_ALPHA VNDF_CALL3(wm), VNDF_CALL2(alpha)
+
+#define VNDF_SCALARS_W_ALPHA(S) VNDF_SCALARS3(S, w) VNDF_SCALARS2(S, alpha)
+#define VNDF_CALL_W_ALPHA VNDF_CALL3(w), VNDF_CALL2(alpha)
+
+#define VNDF_SCALARS_SLOPE_ALPHA(S) VNDF_SCALARS2(S, slope) VNDF_SCALARS2(S, alpha)
+#define VNDF_CALL_SLOPE_ALPHA VNDF_CALL2(slope), VNDF_CALL2(alpha)
+
+#define VNDF_SCALARS_WO_WI_ALPHA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wi) VNDF_SCALARS2(S, alpha)
+#define VNDF_CALL_WO_WI_ALPHA VNDF_CALL3(wo), VNDF_CALL3(wi), VNDF_CALL2(alpha)
+
+#define VNDF_SCALARS_WO_WM_ALPHA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm) VNDF_SCALARS2(S, alpha)
+#define VNDF_CALL_WO_WM_ALPHA VNDF_CALL3(wo), VNDF_CALL3(wm), VNDF_CALL2(alpha)
+
+#define VNDF_SCALARS_WO_N_WM_ALPHA1(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, n) VNDF_SCALARS3(S, wm) S(alpha)
+#define VNDF_CALL_WO_N_WM_ALPHA1 VNDF_CALL3(wo), VNDF_CALL3(n), VNDF_CALL3(wm), alpha
+
+#define VNDF_SCALARS_COS_THETA_X(S) S(cos_theta) S(x)
+#define VNDF_CALL_COS_THETA_X cos_theta, x
+
+#define VNDF_SCALARS_COS_THETA_U1(S) S(cos_theta) S(u1)
+#define VNDF_CALL_COS_THETA_U1 cos_theta, u1
+
+#define VNDF_SCALARS_WO_WM(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm)
+#define VNDF_CALL_WO_WM VNDF_CALL3(wo), VNDF_CALL3(wm)
+
+#define VNDF_SCALARS_WO_WM_ETA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm) S(eta)
+#define VNDF_CALL_WO_WM_ETA VNDF_CALL3(wo), VNDF_CALL3(wm), eta
+
+#define VNDF_SCALARS_WO_WI_ETA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wi) S(eta)
+#define VNDF_CALL_WO_WI_ETA VNDF_CALL3(wo), VNDF_CALL3(wi), eta
+
+#define VNDF_RESULTS_WM(S) S(wm_x, x) S(wm_y, y) S(wm_z, z)
+#define VNDF_RESULTS_WI(S) S(wi_x, x) S(wi_y, y) S(wi_z, z)
+#define VNDF_RESULTS_WM_PDF(S) VNDF_RESULTS_WM(S) S(pdf, w)
+#define VNDF_RESULTS_WI_PDF(S) VNDF_RESULTS_WI(S) S(pdf, w)
+
+#endif
