@@ -1,0 +1,58 @@
+// Evaluation on an OpenCL device: one program with the entry points of kernels/batch.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/devices.h"
+#include "runtime/evaluator.h"
+#include "runtime/sources.h"
+
+namespace vndf::runtime {
+
+struct ProgramOptions {
+    std::vector<std::string> functions;  // registered names to compile; empty: all
+    std::string build_options;           // appended, e.g. "-cl-fast-relaxed-math"
+    std::vector<Substitution> substitutions;
+    int mutant = 0;  // the substitution switched on; 0: none
+};
+
+class DeviceEvaluator final : public Evaluator {
+  public:
+    // Builds the program. Throws InputError if the device lacks fp64 and double is asked for, DeviceError with
+    // the build log if the build fails.
+    DeviceEvaluator(const Device& device, Math math, Real real, const ProgramOptions& options = {});
+
+    void run(const Function& function, std::size_t n, const std::vector<const void*>& inputs,
+             const std::vector<void*>& outputs) override;
+
+    // Fills u1 and u2 with n numbers in [0, 1) each, made on the device by Philox: item i depends on (seed,
+    // stream, i) alone. Multiples of 2^-24 in float, of 2^-53 in double.
+    void uniforms(std::uint64_t seed, std::uint64_t stream, std::size_t n, void* u1, void* u2);
+
+    Real input_real() const override { return real_; }
+    Real output_real() const override { return real_; }
+    std::string describe() const override;
+
+    const Device& device() const { return device_; }
+    const std::string& build_options() const { return build_options_; }
+
+  private:
+    cl::Kernel& kernel(const std::string& name);
+    cl::Buffer& buffer(std::size_t index);
+    void launch(cl::Kernel& kernel, std::size_t items);
+
+    Device device_;
+    Math math_;
+    Real real_;
+    std::string build_options_;
+    cl::Context context_;
+    cl::CommandQueue queue_;
+    cl::Program program_;
+    std::map<std::string, cl::Kernel> kernels_;
+    std::vector<cl::Buffer> buffers_;  // one for each kernel argument, reused from launch to launch
+};
+
+}  // namespace vndf::runtime

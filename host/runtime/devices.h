@@ -1,0 +1,43 @@
+// The OpenCL devices of this machine, and the choice of one.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/evaluator.h"
+#include "runtime/opencl.h"
+
+namespace vndf::runtime {
+
+struct Device {
+    cl::Device handle;
+    std::string platform, platform_version;
+    std::string name, driver, c_version;
+    cl_device_type type = 0;
+    bool fp64 = false;
+    bool fma = false;                 // float
+    bool denormals = false;           // float
+    bool correct_divide_sqrt = false;  // float: / and sqrt correctly rounded on request
+    unsigned compute_units = 0, clock_mhz = 0;
+    unsigned long long memory_bytes = 0;
+
+    std::string label() const { return platform + " / " + name; }
+};
+
+// Every device of every platform, in the loader's order. A platform without devices, or one that fails to list
+// them, is passed over.
+std::vector<Device> devices();
+
+struct Choice {
+    Device device;
+    std::string note;  // if several devices matched: which one was taken, for stderr
+};
+
+// The first device whose platform or device name contains `wanted` (case does not matter). Nothing wanted: the
+// environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device.
+// Throws InputError, listing the devices there are.
+Choice choose_device(std::string wanted = {});
+Choice choose_device(const std::vector<Device>& all, std::string wanted);
+
+}  // namespace vndf::runtime
