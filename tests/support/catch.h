@@ -9,7 +9,9 @@
 namespace Catch {
 using Detail::Approx;
 namespace Matchers {
-inline auto ContainsSubstring(const std::string& part) { return Contains(part); }
+inline auto ContainsSubstring(const std::string& part) {
+    return Contains(part);
+}
 }  // namespace Matchers
 }  // namespace Catch
 #endif
