@@ -1,0 +1,58 @@
+// Where functions are checked: lobes for the statistics, points for the pointwise comparison. Everything is
+// made from the names of a function's scalars, so a newly registered function needs nothing here unless it
+// brings a new kind of argument.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "registry.h"
+
+namespace vndf::conformance {
+
+using Direction = std::array<double, 3>;
+
+// The directions agree with each other: wm
+// is a normal of the lobe (alpha), wi the reflection of wo about it, slope and x the slopes of wm, w = wo,
+// cos_theta = wo.z; with a world-space n all directions are turned into its frame.
+struct Point {
+    Direction wo{0, 0, 1}, n{0, 0, 1}, wm{0, 0, 1}, wi{0, 0, 1};
+    double cos_theta = 1;  // about n
+    std::array<double, 2> alpha{1, 1}, slope{0, 0}, u{0.5, 0.5};
+    double x = 0, eta = 1.5;
+
+    // The scalar of this column name ("wo_x", "alpha", ...). Throws std::invalid_argument if there is none.
+    double scalar(std::string_view column) const;
+};
+
+// A position in a lobe: a direction of the stretched hemisphere, where every lobe is wide.
+struct Stretched {
+    double cos_theta;
+    double phi;
+};
+
+// The unit vector with this cosine and azimuth. |cos| near 1 and near 0 keep their relative precision.
+Direction direction(double cos_theta, double phi);
+
+// wo and normal are given in the frame of n.
+Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,
+                 std::array<double, 2> u, double eta);
+
+// A table of input rows, column by column, each value exactly representable in the tested real type.
+struct Table {
+    std::vector<std::vector<double>> columns;  // [input][row]
+    std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+    std::vector<double> row(std::size_t i) const;
+};
+
+enum class Rounding { to_float, none };
+
+// `points` as the inputs of `function`.
+Table tabulate(const Function& function, const std::vector<Point>& points, Rounding);
+
+// The index of the column `name` among the inputs, or -1.
+int column(const Function& function, std::string_view name);
+
+}  // namespace vndf::conformance
