@@ -1,0 +1,239 @@
+// Geometry shared by all distributions: clamps, the stretched view direction, reflection, refraction,
+// Jacobians.
+//
+// Internals take and return scalars: vector arithmetic in a body keeps CPU devices from vectorising a kernel.
+#ifndef VNDF_FRAME_H
+#define VNDF_FRAME_H
+
+#include "config.h"
+#include "math.h"
+
+#if VNDF_DOUBLE
+#define VNDF_REAL_MAX 1.79769313486231570815e+308
+#define VNDF_EPSILON 1.11022302462515654042e-16  // 2^-53
+#else
+#define VNDF_REAL_MAX 3.40282346638528859812e+38f
+#define VNDF_EPSILON 5.96046447753906250000e-08f  // 2^-24
+#endif
+
+// --- Clamps of the public domain
+// -----------------------------------------------------------------------------
+
+// alpha raised to 1e-8, below which a float direction cannot tell the lobe from a mirror.
+VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
+    return alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
+}
+
+// u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
+VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
+    VNDF_REAL low = u > VNDF_U_MIN ? u : VNDF_U_MIN;
+    return low < VNDF_U_MAX ? low : VNDF_U_MAX;
+}
+
+// Keeps a density or a pole finite: the comparison is false for +inf.
+VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
+    return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
+}
+
+VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
+    return x < VNDF_R(0.0) ? -x : x;
+}
+VNDF_FN VNDF_REAL vndf_impl_max(VNDF_REAL a, VNDF_REAL b) {
+    return a > b ? a : b;
+}
+VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL a, VNDF_REAL b) {
+    return a < b ? a : b;
+}
+
+// --- Products and sums with one rounding or little more
+// ------------------------------------------------------
+
+// a b - c d without cancellation error: at most 1.5 ulp (Kahan).
+VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c, VNDF_REAL d) {
+    VNDF_REAL cd = c * d;
+    return VNDF_FMA(a, b, -cd) + VNDF_FMA(-c, d, cd);
+}
+
+// The rounding error of s = a + b, exactly (Knuth).
+VNDF_FN VNDF_REAL vndf_impl_sum_error(VNDF_REAL a, VNDF_REAL b, VNDF_REAL s) {
+    VNDF_REAL t = s - a;
+    return (a - (s - t)) + (b - t);
+}
+
+// a . b as head + tail: as if computed in twice the precision, so that a grazing wm . wo keeps its digits.
+struct vndf_impl_pair {
+    VNDF_REAL head, tail;
+};
+VNDF_FN struct vndf_impl_pair vndf_impl_dot_pair(VNDF_REAL ax, VNDF_REAL ay, VNDF_REAL az, VNDF_REAL bx,
+                                                 VNDF_REAL by, VNDF_REAL bz) {
+    VNDF_REAL px = ax * bx, py = ay * by, pz = az * bz;
+    VNDF_REAL xy = px + py, sum = xy + pz;
+    struct vndf_impl_pair dot;
+    VNDF_REAL products = VNDF_FMA(ax, bx, -px) + VNDF_FMA(ay, by, -py) + VNDF_FMA(az, bz, -pz);
+    dot.head = sum;
+    dot.tail = products + (vndf_impl_sum_error(px, py, xy) + vndf_impl_sum_error(xy, pz, sum));
+    return dot;
+}
+VNDF_FN VNDF_REAL vndf_impl_dot(VNDF_REAL ax, VNDF_REAL ay, VNDF_REAL az, VNDF_REAL bx, VNDF_REAL by,
+                                VNDF_REAL bz) {
+    struct vndf_impl_pair dot = vndf_impl_dot_pair(ax, ay, az, bx, by, bz);
+    return dot.head + dot.tail;
+}
+
+// sin of the angle whose cosine is c: 1 - c c is rounded once.
+VNDF_FN VNDF_REAL vndf_impl_sin_from_cos(VNDF_REAL c) {
+    VNDF_REAL square = VNDF_FMA(-c, c, VNDF_R(1.0));
+    return VNDF_SQRT(square > VNDF_R(0.0) ? square : VNDF_R(0.0));
+}
+
+// The power of two that brings |x| in (0, 4] near 1, exactly: no square below under- or overflows.
+VNDF_FN VNDF_REAL vndf_impl_scale(VNDF_REAL x) {
+#if VNDF_DOUBLE
+    VNDF_INT exponent = VNDF_AS_INT(x) & 0x7ff0000000000000;
+    return VNDF_AS_REAL(0x7fe0000000000000 - exponent);
+#else
+    VNDF_INT exponent = VNDF_AS_INT(x) & 0x7f800000;
+    return VNDF_AS_REAL(0x7f000000 - exponent);
+#endif
+}
+
+// --- Directions and samples as scalars
+// -----------------------------------------------------------------------
+
+struct vndf_impl_sample {
+    VNDF_REAL x, y, z, pdf;
+};
+VNDF_FN VNDF_REAL3 vndf_impl_direction(struct vndf_impl_sample s) {
+    return VNDF_MAKE3(s.x, s.y, s.z);
+}
+VNDF_FN VNDF_REAL4 vndf_impl_direction_pdf(struct vndf_impl_sample s) {
+    return VNDF_MAKE4(s.x, s.y, s.z, s.pdf);
+}
+
+// The stretched view direction v = (alpha_x wo.x, alpha_y wo.y, wo.z), of any length, in stable terms.
+struct vndf_impl_view {
+    VNDF_REAL alpha_x, alpha_y;  // raised
+    VNDF_REAL x, y, z;           // v
+    VNDF_REAL r, l;              // |v|, and the length of its tangential part
+    VNDF_REAL rcp_l;             // 1 / l, 0 for l = 0
+    VNDF_REAL t, rcp_t;          // sqrt(r (r + |z|))
+};
+
+// Squares of alpha wo.x are formed 2^27 times larger: they keep full precision down to wo.x = 1e-19 for every
+// alpha in the domain, and the largest, (2^27 1e3)^2, is far from overflow.
+VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF_REAL vz) {
+    struct vndf_impl_view v;
+    VNDF_REAL kx = vx * VNDF_R(134217728.0), ky = vy * VNDF_R(134217728.0);
+    VNDF_REAL kl = VNDF_SQRT(VNDF_FMA(kx, kx, ky * ky));
+    v.x = vx;
+    v.y = vy;
+    v.z = vz;
+    v.l = kl * VNDF_R(7.450580596923828125e-09);
+    v.rcp_l = v.l > VNDF_R(0.0) ? VNDF_R(1.0) / v.l : VNDF_R(0.0);
+    v.r = VNDF_SQRT(VNDF_FMA(vx, vx, VNDF_FMA(vy, vy, vz * vz)));
+    v.t = VNDF_SQRT(v.r * (v.r + vndf_impl_abs(vz)));
+    v.rcp_t = VNDF_R(1.0) / v.t;
+    v.alpha_x = v.alpha_y = VNDF_R(1.0);
+    return v;
+}
+VNDF_FN struct vndf_impl_view vndf_impl_stretch(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
+    v.alpha_x = alpha_x;
+    v.alpha_y = alpha_y;
+    return v;
+}
+
+// P = 1 + cos and Q = 1 - cos of the polar angle of v, and their roots. The smaller of the two is formed from
+// its own root, l / t, so that neither is ever a difference.
+struct vndf_impl_cap {
+    VNDF_REAL p, q, sqrt_p, sqrt_q;
+    VNDF_REAL z, sine;  // cosine and sine of the polar angle: 1 / r = large_root / t
+    VNDF_REAL tangent;  // sqrt_q v_xy / l = tangent v_xy, without 1 / l for a front-facing v
+};
+VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(struct vndf_impl_view v) {
+    struct vndf_impl_cap cap;
+    VNDF_REAL large_root = (v.r + vndf_impl_abs(v.z)) * v.rcp_t, small_root = v.l * v.rcp_t;
+    VNDF_REAL large = large_root * large_root, small = small_root * small_root;
+    int front = v.z >= VNDF_R(0.0);
+    cap.z = v.z * (large_root * v.rcp_t);
+    cap.sine = v.l * (large_root * v.rcp_t);
+    cap.sqrt_p = front ? large_root : small_root;
+    cap.sqrt_q = front ? small_root : large_root;
+    cap.p = front ? large : small;
+    cap.q = front ? small : large;
+    cap.tangent = front ? v.rcp_t : large_root * v.rcp_l;
+    return cap;
+}
+
+// --- Public geometry
+// -----------------------------------------------------------------------------------------
+
+// The mirror direction of wo about wm.
+// Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 39 (i = wo,
+//     o = the result).
+// wo, wm: unit vectors, any frame, any orientation.
+// return: 2 (wo . wm) wm - wo, unit to the rounding of the arguments; below the surface where it falls there.
+// Accuracy: components within 4 units of 2^-24 (double: 2^-53).
+VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
+    VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
+    return VNDF_MAKE3(VNDF_FMA(twice, wm.x, -wo.x), VNDF_FMA(twice, wm.y, -wo.y),
+                      VNDF_FMA(twice, wm.z, -wo.z));
+}
+
+// The refracted direction of wo through a facet wm.
+// Source: Walter et al. 2007, Equation 40 (i = wo, o = the result, n = wm, eta_i / eta_o = 1 / eta).
+// wo, wm: unit vectors, any frame, wo . wm > 0.
+// eta: index of refraction on the far side over the index on wo's side, > 0.
+// return: unit vector on the far side of the facet; the zero vector on total internal reflection, for
+//     wo . wm <= 0 and for eta <= 0.
+// Accuracy: the transmitted cosine is formed without cancellation in eta - 1; its error grows as its inverse
+//     towards the critical angle, as does its derivative.
+VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
+    VNDF_REAL c = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
+    VNDF_REAL rcp_eta = VNDF_R(1.0) / eta;
+    // A dot product of rounded unit vectors can exceed 1.
+    VNDF_REAL c1 = vndf_impl_min(c, VNDF_R(1.0));
+    VNDF_REAL sin2 = VNDF_FMA(-c1, c1, VNDF_R(1.0));
+    VNDF_REAL contrast = ((eta - VNDF_R(1.0)) * rcp_eta) * ((eta + VNDF_R(1.0)) * rcp_eta);
+    VNDF_REAL cos2 = VNDF_FMA(sin2, contrast, c1 * c1);
+    int valid = c > VNDF_R(0.0) && eta > VNDF_R(0.0) && cos2 >= VNDF_R(0.0);
+    VNDF_REAL k = VNDF_FMA(c, rcp_eta, -VNDF_SQRT(cos2 > VNDF_R(0.0) ? cos2 : VNDF_R(0.0)));
+    VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
+    VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
+    VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
+    return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
+}
+
+// |d wm / d wi| of reflection: multiply a density per steradian of wm by it to get one per steradian of wi.
+// Source: Walter et al. 2007, Equation 14.
+// wo, wm: unit vectors, any frame.
+// return: 1 / (4 |wo . wm|), per steradian over steradian; the largest finite number where wo . wm is 0.
+// Accuracy: relative error at most 4 units of 2^-24 (double: 2^-53) for the vectors as given.
+VNDF_FN VNDF_REAL vndf_jacobian_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
+    VNDF_REAL c = vndf_impl_abs(vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z));
+    return vndf_impl_finite(VNDF_R(0.25) / c);
+}
+
+// |d wm / d wi| of refraction, for the half vector h = wo + eta wi.
+// Source: Walter et al. 2007, Equation 17 (i = wo, o = wi, eta_o / eta_i = eta); as wo . m + eta wi . m = |h|
+//     for m = h / |h|, it is eta^2 |wi . h| / |h|^3.
+// wo, wi: unit vectors on either side of the facet, any frame.
+// eta: index of refraction on wi's side over the index on wo's side, > 0.
+// return: >= 0, per steradian over steradian; the largest finite number where h is 0 (eta = 1, wi = -wo: no
+//     facet is defined there).
+// Accuracy: relative error at most 16 units of 2^-24 (double: 2^-53) for the arguments as given.
+VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL eta) {
+    VNDF_REAL hx = VNDF_FMA(eta, wi.x, wo.x), hy = VNDF_FMA(eta, wi.y, wo.y), hz = VNDF_FMA(eta, wi.z, wo.z);
+    VNDF_REAL h = VNDF_SQRT(VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)));
+    // wi . h = wi . wo + eta wi . wi, in twice the precision: it vanishes at grazing transmission.
+    struct vndf_impl_pair cross = vndf_impl_dot_pair(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z);
+    struct vndf_impl_pair norm = vndf_impl_dot_pair(wi.x, wi.y, wi.z, wi.x, wi.y, wi.z);
+    VNDF_REAL product = eta * norm.head, sum = product + cross.head;
+    VNDF_REAL low = VNDF_FMA(eta, norm.head, -product) + vndf_impl_sum_error(product, cross.head, sum);
+    VNDF_REAL wi_h = vndf_impl_abs(sum + (low + VNDF_FMA(eta, norm.tail, cross.tail)));
+    VNDF_REAL ratio = eta / h;
+    return vndf_impl_finite(h > VNDF_R(0.0) ? ratio * ratio * (wi_h / h) : VNDF_REAL_MAX);
+}
+
+#endif

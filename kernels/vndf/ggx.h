@@ -1,0 +1,299 @@
+// The GGX distribution (Trowbridge-Reitz) with Smith masking: its terms and its densities.
+//
+// Conventions of vndf.h. Every function takes vectors, never cosines: a D that sees only wm.z loses all
+// digits below alpha = 1e-2. `alpha` is (alpha_x, alpha_y), each raised to 1e-8. Densities and terms use the
+// vectors literally, without normalising them. Symbols: l = |(alpha_x w.x, alpha_y w.y)|, t = sqrt(l^2 +
+// w.z^2).
+//
+// Accuracy, unless stated: relative error in units of 2^-24 (double: 2^-53), asserted by `clvndf check`.
+#ifndef VNDF_GGX_H
+#define VNDF_GGX_H
+
+#include "config.h"
+#include "math.h"
+#include "frame.h"
+
+// q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z).
+VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
+                                  VNDF_REAL alpha_y) {
+    VNDF_REAL sx = x / alpha_x, sy = y / alpha_y;
+    return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, z * z));
+}
+
+// 2 sigma = z + t, or l^2 / (t - z) for z < 0, where the sum would cancel.
+VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
+                                            VNDF_REAL alpha_y) {
+    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * x, alpha_y * y, z);
+    VNDF_REAL sum = v.r + vndf_impl_abs(z);
+    return z >= VNDF_R(0.0) ? sum : v.l * (v.l / sum);
+}
+
+// The distribution of normals D.
+// Source: Walter et al. 2007, Equation 33 (m = wm), in the anisotropic vector form of Heitz, Understanding
+// the
+//     Masking-Shadowing Function, 2014.
+// wm: unit normal, local frame.
+// alpha: in [1e-8, 1e3] each.
+// return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
+    VNDF_REAL d = VNDF_1_PI / ((q * alpha_x) * (q * alpha_y));
+    return wm.z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
+}
+
+// The distribution of slopes P22.
+// Source: Heitz & d'Eon, Importance Sampling Microfacet-Based BSDFs with the Distribution of Visible Normals,
+//     2014, supplement 1, Section 4.1, scaled by alpha.
+// slope: (x, y) of the normal (-x, -y, 1), any real numbers.
+// return: per unit of slope area, integral 1.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL rcp_q = VNDF_R(1.0) / vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y);
+    return vndf_impl_finite(VNDF_1_PI * (rcp_q / alpha_x) * (rcp_q / alpha_y));
+}
+
+// Smith's Lambda.
+// Source: Heitz 2014, Equation 72, as l^2 / (2 w.z (t + w.z)), which does not cancel for small alpha.
+// w: unit vector, local frame.
+// return: >= 0 above the horizon. Below it, sigma(w) / w.z - 1 = -1 - Lambda(-w), so that (1 + Lambda) w.z is
+//     the projected area everywhere. The largest finite number (largest negative below) at the pole w.z = 0.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
+    VNDF_REAL z = vndf_impl_abs(w.z);
+    VNDF_REAL pole = (VNDF_R(0.5) * v.l / (v.r + z)) * (v.l / z);
+    VNDF_REAL upper = vndf_impl_finite(z > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
+    return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
+}
+
+// The projected area of the microsurface seen from w.
+// Source: Dupuy & Benyoub, Sampling Visible GGX Normals with Spherical Caps, 2023, Equation 4, stretched.
+// w: unit vector, local frame, anywhere on the sphere.
+// return: (w.z + t) / 2, in [0, max(1, alpha)]: per unit area of the macrosurface. Integral of D max(w . m,
+// 0). Accuracy: 8, also below the horizon.
+VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    return VNDF_R(0.5) *
+           vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+}
+
+// Smith masking of one direction, for a normal that faces it.
+// Source: Heitz 2014, Equation 43: w.z / sigma = 2 w.z / (w.z + t).
+// w: unit vector, local frame.
+// return: in [0, 1]; 0 for w.z <= 0.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    VNDF_REAL twice_sigma =
+        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    return w.z > VNDF_R(0.0) ? VNDF_R(2.0) * w.z / twice_sigma : VNDF_R(0.0);
+}
+
+// Height-correlated masking and shadowing of a reflection.
+// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)) = 2 o i / (t_o i + t_i o), o = wo.z,
+//     i = wi.z, divided by the larger cosine so that nothing underflows.
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    struct vndf_impl_view o = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
+    struct vndf_impl_view i = vndf_impl_view_of(alpha_x * wi.x, alpha_y * wi.y, wi.z);
+    int swap = wo.z > wi.z;
+    VNDF_REAL low = swap ? wi.z : wo.z, high = swap ? wo.z : wi.z;
+    VNDF_REAL t_low = swap ? i.r : o.r, t_high = swap ? o.r : i.r;
+    VNDF_REAL g2 = VNDF_R(2.0) * low / VNDF_FMA(t_high, low / high, t_low);
+    return low > VNDF_R(0.0) ? g2 : VNDF_R(0.0);
+}
+
+// Separable masking and shadowing: G1(wo) G1(wi).
+// Source: Heitz 2014, Equation 98.
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8.
+VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_ggx_g1(wo, alpha) * vndf_ggx_g1(wi, alpha);
+}
+
+// The distribution of visible normals: the density of every vndf_ggx_sample_wm_* but walter2007.
+// Source: Dupuy & Benyoub 2023, Equation 1, as max(wo . wm, 0) D(wm) / sigma(wo).
+// wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
+// wm: unit normal, local frame.
+// return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
+// Accuracy: 16, also where wo . wm or 1 + wo.z nearly vanish.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
+    VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
+    VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
+    VNDF_REAL pdf = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * (cos_om / twice_sigma);
+    int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
+    return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+// Half vector h = wo + wi of the vectors as given, times a power of two `scale`; its squared length; q of D.
+struct vndf_impl_half {
+    VNDF_REAL z, length2, q, scale;
+    VNDF_REAL q_slope;  // half the 1-norm of dq/dh
+};
+VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL alpha_x,
+                                                VNDF_REAL alpha_y) {
+    struct vndf_impl_half h;
+    VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
+    VNDF_REAL largest = vndf_impl_max(vndf_impl_max(vndf_impl_abs(x), vndf_impl_abs(y)), vndf_impl_abs(z));
+    h.scale = vndf_impl_scale(largest);
+    x *= h.scale;
+    y *= h.scale;
+    h.z = z * h.scale;
+    VNDF_REAL sx = x / alpha_x, sy = y / alpha_y;
+    h.length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, h.z * h.z));
+    h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
+    h.q_slope = vndf_impl_abs(sx) / alpha_x + vndf_impl_abs(sy) / alpha_y + vndf_impl_abs(h.z);
+    return h;
+}
+// D / (2 n) of the half vector, for a normaliser n.
+VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
+                                               VNDF_REAL alpha_y) {
+    VNDF_REAL ratio = h.length2 / h.q;
+    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI / n) * (ratio / alpha_x) * (ratio / alpha_y);
+    return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+// The density of the reflection of wo about a visible normal.
+// Source: Dupuy & Benyoub 2023, Equation 20, with 1 / sigma for G1 / cos: D(h) / (4 sigma(wo)), h = wo + wi.
+// wo: unit vector, local frame, anywhere on the sphere.
+// wi: unit vector, local frame, anywhere on the sphere: a reflection may fall below the horizon.
+// return: per steradian of wi; 0 where the half vector points to or below the horizon.
+// Accuracy: 16 for the vectors as given. Below alpha = 1e-2 the rounding of wi moves the density by more than
+//     that: use a sampler's _with_pdf form there.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
+    VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
+    return vndf_impl_ggx_reflection_pdf(h, twice_sigma, alpha_x, alpha_y);
+}
+
+// The density of the plain NDF sampler: D(wm) wm.z.
+// Source: Walter et al. 2007, Equation 24.
+// wm: unit normal, local frame.
+// return: per steradian of wm; 0 for wm.z <= 0.
+// Accuracy: 16.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
+    return vndf_impl_finite(vndf_ggx_ndf(wm, alpha) * wm.z);
+}
+
+// --- Visible slopes at alpha = 1, in the plane of incidence
+// --------------------------------------------------
+
+// cos_theta - x sin_theta of the angle between the view direction and the slope x, over sqrt(1 + x^2): the
+// sine carries its rounding error along, since the difference vanishes at the end of the visible range.
+VNDF_FN VNDF_REAL vndf_impl_visible_cosine(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL square = cos_theta * cos_theta, rest = VNDF_R(1.0) - square;
+    VNDF_REAL rest_error = ((VNDF_R(1.0) - rest) - square) - VNDF_FMA(cos_theta, cos_theta, -square);
+    VNDF_REAL sine = VNDF_SQRT(rest > VNDF_R(0.0) ? rest : VNDF_R(0.0));
+    VNDF_REAL sine_error =
+        sine > VNDF_R(0.0) ? VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error) / sine : VNDF_R(0.0);
+    return VNDF_FMA(-x, sine, cos_theta) - x * sine_error;
+}
+
+// The marginal density of visible slopes in the plane of incidence, alpha = 1.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 4.2.
+// cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
+// x: slope of the normal (-x, ., 1), positive away from the view direction.
+// return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
+// Accuracy: 16.
+VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL square = VNDF_FMA(x, x, VNDF_R(1.0)), p = VNDF_R(1.0) + cos_theta;
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    VNDF_REAL pdf = (visible / VNDF_SQRT(square)) / square / p;
+    return visible > VNDF_R(0.0) && p > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+// Its cumulative distribution.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 4.2: (sin(theta + psi) + cos theta) / (1 + cos theta),
+//     x = tan psi, written so that the tail x -> -infinity keeps its digits.
+// cos_theta, x: as for vndf_ggx_slope_pdf.
+// return: in [0, 1]; 1 for x >= cot(theta), and for cos_theta = -1, where nothing is visible.
+// Accuracy: 16.
+VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta), p = VNDF_R(1.0) + cos_theta;
+    VNDF_REAL root = VNDF_SQRT(VNDF_FMA(x, x, VNDF_R(1.0))), sum = root + vndf_impl_abs(x);
+    VNDF_REAL weight = x < VNDF_R(0.0) ? VNDF_R(1.0) / sum : sum;
+    VNDF_REAL cdf = (VNDF_FMA(cos_theta, weight, sine) / root) / p;
+    int inside = vndf_impl_visible_cosine(cos_theta, x) > VNDF_R(0.0) && cdf < VNDF_R(1.0);
+    return inside ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
+}
+
+// sin and cos of the angle psi whose slope x = tan psi has the visible cumulative probability u1.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 4.2. The distribution is affine in s = sin(theta + psi):
+//     s = u1 (1 + c) - c with c = cos theta, and cos(theta + psi) = sqrt((1 - s)(1 + s)) with both factors
+//     formed without a difference; no root has to be chosen, and every theta is valid.
+struct vndf_impl_slope {
+    VNDF_REAL sin_psi, cos_psi;
+    VNDF_REAL visible;  // cos(theta + psi) / sqrt(1 + c)
+};
+VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, VNDF_REAL p, VNDF_REAL q,
+                                                   VNDF_REAL sqrt_p, VNDF_REAL u1) {
+    struct vndf_impl_slope slope;
+    VNDF_REAL up = u1 * p, s = up - c;
+    slope.visible = VNDF_SQRT((VNDF_R(1.0) - u1) * (up + q));
+    VNDF_REAL cosine = sqrt_p * slope.visible;
+    slope.sin_psi = VNDF_FMA(s, c, -cosine * sine);
+    // cos psi = cosine c + s sine; its product with the conjugate is (c - s)(c + s), for opposite signs.
+    VNDF_REAL direct = VNDF_FMA(cosine, c, s * sine);
+    VNDF_REAL conjugate = up * (VNDF_R(2.0) * c - up) / VNDF_FMA(cosine, c, -s * sine);
+    int opposite = (s < VNDF_R(0.0)) != (c < VNDF_R(0.0));
+    slope.cos_psi = opposite ? conjugate : direct;
+    return slope;
+}
+
+// The inverse of vndf_ggx_slope_cdf.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 4.2.
+// cos_theta: in [-1, 1].
+// u1: probability, clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
+// Accuracy: 16 times (1 + condition number).
+VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    VNDF_REAL p = VNDF_R(1.0) + cos_theta, q = VNDF_R(1.0) - cos_theta;
+    struct vndf_impl_slope slope = vndf_impl_ggx_slope(
+        cos_theta, sine, p, q, VNDF_SQRT(p > VNDF_R(0.0) ? p : VNDF_R(0.0)), vndf_impl_u(u1));
+    VNDF_REAL x = slope.sin_psi / slope.cos_psi;
+    return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
+}
+
+// --- What the samplers share
+// ---------------------------------------------------------------------------------
+
+// Unstretches h, a normal of any length in the stretched frame, and normalises it; the density of the result
+// is weight |g|^3 / (pi alpha_x alpha_y), g = (alpha_x h.x, alpha_y h.y, h.z).
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL hy, VNDF_REAL hz,
+                                                        VNDF_REAL alpha_x, VNDF_REAL alpha_y,
+                                                        VNDF_REAL weight) {
+    struct vndf_impl_sample m;
+    VNDF_REAL gx = alpha_x * hx, gy = alpha_y * hy;
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    // length2 = 0 needs h = 0, the reflection of wo into -wo: no normal is defined, density 0.
+    int defined = length2 > VNDF_R(0.0);
+    m.x = defined ? gx * rcp : VNDF_R(0.0);
+    m.y = defined ? gy * rcp : VNDF_R(0.0);
+    m.z = defined ? hz * rcp : VNDF_R(1.0);
+    VNDF_REAL pdf = VNDF_1_PI * weight * (length / alpha_x) * (length / alpha_y) * length;
+    m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return m;
+}
+
+// What a sampler returns where its method is not defined: the macroscopic normal, with density 0.
+VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sample m) {
+    struct vndf_impl_sample s;
+    s.x = defined ? m.x : VNDF_R(0.0);
+    s.y = defined ? m.y : VNDF_R(0.0);
+    s.z = defined ? m.z : VNDF_R(1.0);
+    s.pdf = defined ? m.pdf : VNDF_R(0.0);
+    return s;
+}
+
+#endif

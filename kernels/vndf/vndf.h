@@ -1,0 +1,51 @@
+// clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals.
+//
+// One header set for OpenCL C 1.2 (and later) and C++20. Include this file, or only the sampler you need;
+// each header includes what it uses. Nothing here has state, takes a pointer or calls out: copy the folder.
+// Every name begins with vndf_ or VNDF_.
+//
+// Conventions
+//   wo      the known direction (towards the viewer), wi the sampled one, wm the microfacet normal: unit
+//   vectors
+//           that point away from the surface. Papers differ: their omega_i or V is often our wo.
+//   frame   local, z the macroscopic normal; the world-space sampler takes the normal n instead.
+//   alpha   (alpha_x, alpha_y), the parameters of the distribution, not a perceptual roughness. Valid in
+//           [1e-8, 1e3]; raised to 1e-8, below which the surface is a mirror to working precision.
+//   u       two uniform numbers in [0, 1], clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]), the
+//   ends
+//           being singular. Each sampler says what its u.x and u.y mean.
+//   pdf_wm, pdf_wi   per steradian of the normal, per steradian of the reflected direction. The measure is in
+//           the name: never mix them without vndf_jacobian_reflect or vndf_jacobian_refract.
+//   sample_*_with_pdf   (x, y, z, density): the density from the sampler's own terms, accurate where
+//   evaluating
+//           at the rounded direction is not (alpha below 1e-2, grazing directions).
+//   Samplers depend on the direction of wo only; terms and densities take vectors literally.
+//   Out of the domain: documented finite values, density 0. NaN only if NaN came in.
+//
+// Precision and policy: see config.h (VNDF_REAL, VNDF_MATH).
+#ifndef VNDF_H
+#define VNDF_H
+
+#define VNDF_VERSION_MAJOR 0
+#define VNDF_VERSION_MINOR 1
+#define VNDF_VERSION_PATCH 0
+
+#include "config.h"
+#include "math.h"
+#include "frame.h"
+
+#include "ggx.h"
+#include "ggx_heitz_deon2014.h"
+#include "ggx_heitz2017.h"
+#include "ggx_heitz2018.h"
+#include "ggx_dupuy2023.h"
+#include "ggx_eto2023.h"
+#include "ggx_benyoub2024.h"
+#include "ggx_walter2007.h"
+
+#include "beckmann.h"
+#include "beckmann_heitz_deon2014.h"
+#include "beckmann_jakob2014.h"
+#include "beckmann_walter2007.h"
+
+#endif
