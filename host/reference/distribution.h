@@ -1,0 +1,94 @@
+// The distribution of one sampler's directions for one lobe: pivots, moments, bins, quadrature.
+//
+// All of it follows the registered density, never the sampler's map: for the approximate 2014 fit this is the
+// exact distribution, so that its bias shows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "host/reference/reference.h"
+
+namespace vndf::reference {
+
+struct Vec3d {
+    double x, y, z;
+};
+
+// First and second moments of a unit direction d, and the variances of the quantities averaged: the standard
+// error of a mean of n samples is sqrt(variance / n).
+struct Moments {
+    // d_x, d_y, d_z; d_x d_x, d_y d_y, d_z d_z, d_x d_y, d_x d_z, d_y d_z; d . wo (d . n for walter2007).
+    static constexpr int count = 10;
+    static constexpr std::array<const char*, count> names = {"x",  "y",  "z",  "xx", "yy",
+                                                             "zz", "xy", "xz", "yz", "wo"};
+    std::array<double, count> mean{};
+    std::array<double, count> variance{};
+};
+
+// Nodes d and weights so that  sum w f(d)  is the integral of f over the sphere (solid angle) for functions f
+// shaped like the density, and  sum p f(d)  the expectation of f: p = w * density.
+struct QuadratureRule {
+    std::vector<double> x, y, z;      // unit directions (wm or wi by the sampler's result)
+    std::vector<double> weight;       // solid angle
+    std::vector<double> probability;  // weight * density; sums to 1
+    std::size_t size() const { return x.size(); }
+};
+
+// Edges of a histogram in theta (polar) and phi (azimuth), ascending; phi starts anywhere and spans 2 pi.
+struct Bins {
+    std::vector<double> theta, phi;
+};
+
+class Distribution {
+  public:
+    // `sampler`: a registered sampler's name (with or without _with_pdf); `in`: its scalars in the registry's
+    // order (u is not read). Throws std::invalid_argument for another name.
+    Distribution(std::string_view sampler, const double* in, Precision precision = Precision::f32);
+
+    // Two numbers for each direction (wm or wi), independent and uniform in [0, 1] if the directions follow
+    // the density. They are clipped to [0, 1]; a direction outside the support gives a number at its end.
+    template <class T>  // float or double
+    void pivots(std::size_t n, const T* x, const T* y, const T* z, double* p1, double* p2) const;
+
+    // The variable of the histogram: polar angle and azimuth (in [0, 2 pi)) about the normal of the surface,
+    // of the direction itself (WM) or of the half vector of direction and wo (WI). For benyoub2024 they are
+    // taken about n.
+    template <class T>
+    void angles(std::size_t n, const T* x, const T* y, const T* z, double* theta, double* phi) const;
+
+    // Bins of about equal marginal probability in either variable.
+    Bins bins(std::size_t n_theta, std::size_t n_phi) const;
+
+    // Probability of each bin, row by row: [i_theta * n_phi + i_phi]; absolute error below 1e-7.
+    std::vector<double> bin_probabilities(const Bins& bins) const;
+
+    // Relative error below 1e-8 of the largest moment of its order, for alpha in [1e-4, 2].
+    Moments moments() const;
+
+    // A rule that integrates the density of the directions to 1e-7 (fine: 1e-10).
+    QuadratureRule rule(bool fine = false) const;
+
+    // The largest change of a pivot that rounding one component of a typical direction by 2^-24 can make, an
+    // estimate from the lobe alone: pivot tests of float samples make sense where it is below about 1e-3.
+    double pivot_rounding() const;
+
+  private:
+    enum class Shape { ggx, beckmann };
+    Shape shape_;
+    bool reflected_;            // directions are wi
+    double alpha_x_, alpha_y_;  //
+    Vec3d wo_;                  // unit, in the local frame
+    Vec3d t1_, t2_, n_;         // local frame (identity but for benyoub2024)
+    double ex_, ey_;            // azimuth of the stretched wo
+    double length_;             // of the stretched wo
+    double sin_, cos_;          // of its polar angle
+    double tan_half_;           // tan(theta / 2)
+    double cot_;                // cos / sin, capped
+    double bound_;              // k: reflected directions are bounded by o_z > -k cos; 1 for the whole cap
+    double bound_gap_;          // 1 - k
+};
+
+}  // namespace vndf::reference

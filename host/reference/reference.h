@@ -1,0 +1,48 @@
+// The independent reference: every registered function in C++, derived from the definitions.
+//
+// Nothing here is taken from kernels/. The distributions are stated once in stretched space (stretched.h):
+// the visible normals of the unit hemisphere (GGX) or of the unit Gaussian (Beckmann) have a density that is
+// a product in two angles (or slopes); every sampler is the root of an integral of that density. The same
+// templates run in double, long double and dual numbers, so that one text gives values, judge for double
+// kernels, and condition numbers.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace vndf::reference {
+
+// Whose domain holds: u is clamped to [2^-33, 1 - 2^-24] (f32) or [2^-65, 1 - 2^-53] (f64), poles give the
+// largest finite number of that format. Each alpha below 1e-8 counts as 1e-8 for both.
+enum class Precision { f32, f64 };
+
+// One function of the registry on its scalars, `in` and `out` in the registry's order.
+template <class R>
+using Evaluation = void (*)(const R* in, R* out, Precision);
+
+// The evaluation of a registered name, also of the _with_pdf forms; nullptr if there is none.
+// R is double or long double.
+template <class R>
+Evaluation<R> find_evaluation(std::string_view name);
+
+// As Evaluation, for samplers only; returns the condition number of the direction,
+//   sum over the inputs x_j of |x_j| * |d direction / d x_j|  +  |d direction / d (rotation of the stretched
+//   azimuth)|.
+// The derivatives are exact (dual numbers, in double for every R). At a switch between the branches of a
+// map they are those of the branch taken.
+template <class R>
+using ConditionedEvaluation = double (*)(const R* in, R* out, Precision);
+
+template <class R>
+ConditionedEvaluation<R> find_conditioned(std::string_view sampler);
+
+// The condition number alone; throws std::invalid_argument if `sampler` is no sampler.
+double condition(std::string_view sampler, const double* in, Precision precision);
+
+// How far inside its cap the direction wi lies for vndf_ggx_pdf_wi_eto2023, whose scalars `in` are:
+// o_z + k i_z in stretched space over the change of o_z that one unit in the last place of wi (2^-24 or
+// 2^-53) can make. The density is 0 below -8; a comparison should leave out -64 ... 64. Back-facing wo
+// have no bound beyond the horizon of normals: infinity.
+double cap_margin(const double* in, Precision precision);
+
+}  // namespace vndf::reference
