@@ -25,24 +25,23 @@ std::vector<Function> read_registry() {
     std::vector<Function> all;
 #define VNDF_NAME(scalar) #scalar,
 #define VNDF_RESULT_NAME(scalar, member) #scalar,
-#define VNDF_RESULTS_VALUE(S) S(value, )
-#define VNDF_COMMON(name_, ndf_, arguments_, result_, source_)                                               \
-    Function f;                                                                                              \
-    f.name = #name_, f.arguments = #arguments_, f.result = #result_, f.source = source_, f.ndf = ndf_;       \
-    f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                                                       \
+#define VNDF_COMMON(name_, ndf_, arguments_, result_, source_)                                         \
+    Function f;                                                                                        \
+    f.name = #name_, f.arguments = #arguments_, f.result = #result_, f.source = source_, f.ndf = ndf_; \
+    f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                                                 \
     f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};
-#define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, front, back, source)          \
-    {                                                                                                        \
-        VNDF_COMMON(name, ndf, arguments, result, source)                                                    \
-        f.kind = Kind::sampler, f.density = #density_, f.method = method_, f.domain = domain_;               \
-        f.p99_front = front, f.p99_back = back;                                                              \
-        all.push_back(f), all.push_back(with_pdf(f));                                                        \
+#define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, front, back, source) \
+    {                                                                                               \
+        VNDF_COMMON(name, ndf, arguments, result, source)                                           \
+        f.kind = Kind::sampler, f.density = #density_, f.method = method_, f.domain = domain_;      \
+        f.p99_front = front, f.p99_back = back;                                                     \
+        all.push_back(f), all.push_back(with_pdf(f));                                               \
     }
-#define VNDF_FUNCTION(name, ndf, arguments, result, kind_, bound_, source)                                   \
-    {                                                                                                        \
-        VNDF_COMMON(name, ndf, arguments, result, source)                                                    \
-        f.kind = kind_, f.bound = bound_;                                                                    \
-        all.push_back(f);                                                                                    \
+#define VNDF_FUNCTION(name, ndf, arguments, result, kind_, bound_, source) \
+    {                                                                      \
+        VNDF_COMMON(name, ndf, arguments, result, source)                  \
+        f.kind = kind_, f.bound = bound_;                                  \
+        all.push_back(f);                                                  \
     }
 #include "../kernels/samplers.def"
     return all;
@@ -96,15 +95,23 @@ std::string_view to_string(Ndf ndf) {
 
 std::string_view to_string(Kind kind) {
     switch (kind) {
-        case Kind::sampler: return "sampler";
-        case Kind::term: return "term";
-        case Kind::density: return "density";
-        default: return "geometry";
+        case Kind::sampler:
+            return "sampler";
+        case Kind::term:
+            return "term";
+        case Kind::density:
+            return "density";
+        default:
+            return "geometry";
     }
 }
 
-std::string_view to_string(Method method) { return method == Method::exact ? "exact" : "approximate"; }
+std::string_view to_string(Method method) {
+    return method == Method::exact ? "exact" : "approximate";
+}
 
-std::string_view to_string(Domain domain) { return domain == Domain::sphere ? "sphere" : "upper"; }
+std::string_view to_string(Domain domain) {
+    return domain == Domain::sphere ? "sphere" : "upper";
+}
 
 }  // namespace vndf

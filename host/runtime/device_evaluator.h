@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/devices.h"
@@ -21,8 +22,8 @@ struct ProgramOptions {
 
 class DeviceEvaluator final : public Evaluator {
   public:
-    // Builds the program. Throws InputError if the device lacks fp64 and double is asked for, DeviceError with
-    // the build log if the build fails.
+    // Builds the program. Throws InputError if the device lacks fp64 and double is asked for, DeviceError
+    // with the build log if the build fails.
     DeviceEvaluator(const Device& device, Math math, Real real, const ProgramOptions& options = {});
 
     void run(const Function& function, std::size_t n, const std::vector<const void*>& inputs,
@@ -41,8 +42,11 @@ class DeviceEvaluator final : public Evaluator {
 
   private:
     cl::Kernel& kernel(const std::string& name);
-    cl::Buffer& buffer(std::size_t index);
+    cl::Buffer& buffer(std::size_t index, std::size_t bytes);
     void launch(cl::Kernel& kernel, std::size_t items);
+    void read_back(std::size_t index, void* to, std::size_t first, std::size_t items);
+    template <class Body>
+    void in_chunks(const std::string& name, std::size_t n, Body body);
 
     Device device_;
     Math math_;
@@ -52,7 +56,8 @@ class DeviceEvaluator final : public Evaluator {
     cl::CommandQueue queue_;
     cl::Program program_;
     std::map<std::string, cl::Kernel> kernels_;
-    std::vector<cl::Buffer> buffers_;  // one for each kernel argument, reused from launch to launch
+    // One for each kernel argument, with its size in bytes; reused from launch to launch.
+    std::vector<std::pair<cl::Buffer, std::size_t>> buffers_;
 };
 
 }  // namespace vndf::runtime

@@ -16,8 +16,8 @@ struct Device {
     std::string name, driver, c_version;
     cl_device_type type = 0;
     bool fp64 = false;
-    bool fma = false;                 // float
-    bool denormals = false;           // float
+    bool fma = false;                  // float
+    bool denormals = false;            // float
     bool correct_divide_sqrt = false;  // float: / and sqrt correctly rounded on request
     unsigned compute_units = 0, clock_mhz = 0;
     unsigned long long memory_bytes = 0;
@@ -25,8 +25,8 @@ struct Device {
     std::string label() const { return platform + " / " + name; }
 };
 
-// Every device of every platform, in the loader's order. A platform without devices, or one that fails to list
-// them, is passed over.
+// Every device of every platform, in the loader's order. A platform without devices, or one that fails to
+// list them, is passed over.
 std::vector<Device> devices();
 
 struct Choice {
@@ -34,9 +34,9 @@ struct Choice {
     std::string note;  // if several devices matched: which one was taken, for stderr
 };
 
-// The first device whose platform or device name contains `wanted` (case does not matter). Nothing wanted: the
-// environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device.
-// Throws InputError, listing the devices there are.
+// The first device whose platform or device name contains `wanted` (case does not matter). Nothing wanted:
+// the environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device. Throws InputError, listing
+// the devices there are.
 Choice choose_device(std::string wanted = {});
 Choice choose_device(const std::vector<Device>& all, std::string wanted);
 

@@ -1,5 +1,5 @@
-// Anything that evaluates registered functions on arrays: a device, the host build of the same headers, or the
-// reference.
+// Anything that evaluates registered functions on arrays: a device, the host build of the same headers, or
+// the reference.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,12 @@ enum class Real { f32, f64 };
 inline constexpr std::string_view to_string(Math math) {
     return math == Math::strict ? "strict" : math == Math::builtin ? "builtin" : "native";
 }
-inline constexpr std::string_view to_string(Real real) { return real == Real::f32 ? "float" : "double"; }
-inline constexpr std::size_t size_of(Real real) { return real == Real::f32 ? sizeof(float) : sizeof(double); }
+inline constexpr std::string_view to_string(Real real) {
+    return real == Real::f32 ? "float" : "double";
+}
+inline constexpr std::size_t size_of(Real real) {
+    return real == Real::f32 ? sizeof(float) : sizeof(double);
+}
 
 class Evaluator {
   public:

@@ -15,8 +15,8 @@ struct SourceFile {
 // Every file below kernels/ that a program may need, and the headers of Random123 ("Random123/philox.h").
 const std::vector<SourceFile>& embedded_sources();
 
-// A seeded mistake, for tests: in `file` the one occurrence of `old_text`, within a line, becomes `new_text` where
-// VNDF_MUTANT is `id`. The assembled source holds both forms.
+// A seeded mistake, for tests: in `file` the one occurrence of `old_text`, within a line, becomes `new_text`
+// where VNDF_MUTANT is `id`. The assembled source holds both forms.
 struct Substitution {
     std::string file;
     std::string old_text;
@@ -30,10 +30,10 @@ struct Assembly {
     std::vector<Substitution> substitutions;
 };
 
-// The file at `path` with every include resolved (relative to the including file, or from the root), once for a
-// file with an include guard. #line directives keep the compiler's messages at "kernels/vndf/ggx.h:41", so that
-// a program needs no include path. Includes that no embedded file answers stay as they are.
-// Throws DeviceError if a path is unknown, or if a substitution's text is not found exactly once.
+// The file at `path` with every include resolved (relative to the including file, or from the root), once for
+// a file with an include guard. #line directives keep the compiler's messages at "kernels/vndf/ggx.h:41", so
+// that a program needs no include path. Includes that no embedded file answers stay as they are. Throws
+// DeviceError if a path is unknown, or if a substitution's text is not found exactly once.
 std::string assemble(std::string_view path, const Assembly& assembly = {},
                      const std::vector<SourceFile>& files = embedded_sources());
 

@@ -3,7 +3,8 @@
 //
 //   VNDF_SCALARS_<token>(S)  S(wo_x) S(wo_y) ... : one S(...) for each scalar
 //   VNDF_CALL_<token>        the call's arguments, made of variables named like the scalars
-//   VNDF_RESULTS_<result>(S) the scalars of a result; S(scalar, member), member of VNDF_REAL3 or VNDF_REAL4
+//   VNDF_RESULTS_<result>(S) S(wm_x, .x) ... : one S(scalar, member of the returned vector) for each result
+//   VNDF_TYPE_<result>       the type returned; <result>_PDF is what a sampler's _with_pdf form returns
 #ifndef VNDF_BATCH_SHAPES_H
 #define VNDF_BATCH_SHAPES_H
 
@@ -57,9 +58,16 @@
 #define VNDF_SCALARS_WO_WI_ETA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wi) S(eta)
 #define VNDF_CALL_WO_WI_ETA VNDF_CALL3(wo), VNDF_CALL3(wi), eta
 
-#define VNDF_RESULTS_WM(S) S(wm_x, x) S(wm_y, y) S(wm_z, z)
-#define VNDF_RESULTS_WI(S) S(wi_x, x) S(wi_y, y) S(wi_z, z)
-#define VNDF_RESULTS_WM_PDF(S) VNDF_RESULTS_WM(S) S(pdf, w)
-#define VNDF_RESULTS_WI_PDF(S) VNDF_RESULTS_WI(S) S(pdf, w)
+#define VNDF_RESULTS_VALUE(S) S(value, )
+#define VNDF_RESULTS_WM(S) S(wm_x, .x) S(wm_y, .y) S(wm_z, .z)
+#define VNDF_RESULTS_WI(S) S(wi_x, .x) S(wi_y, .y) S(wi_z, .z)
+#define VNDF_RESULTS_WM_PDF(S) VNDF_RESULTS_WM(S) S(pdf, .w)
+#define VNDF_RESULTS_WI_PDF(S) VNDF_RESULTS_WI(S) S(pdf, .w)
+
+#define VNDF_TYPE_VALUE VNDF_REAL
+#define VNDF_TYPE_WM VNDF_REAL3
+#define VNDF_TYPE_WI VNDF_REAL3
+#define VNDF_TYPE_WM_PDF VNDF_REAL4
+#define VNDF_TYPE_WI_PDF VNDF_REAL4
 
 #endif

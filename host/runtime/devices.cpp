@@ -1,0 +1,122 @@
+#include "runtime/devices.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "error.h"
+
+namespace vndf::runtime {
+namespace {
+
+// A device that fails to answer one question is still a device.
+template <cl_device_info name, class T>
+T info(const cl::Device& device, T otherwise) {
+    try {
+        return static_cast<T>(device.getInfo<name>());
+    } catch (const cl::Error&) {
+        return otherwise;
+    }
+}
+
+std::string trimmed(std::string text) {
+    while (!text.empty() && (std::isspace(static_cast<unsigned char>(text.back())) || text.back() == '\0')) {
+        text.pop_back();
+    }
+    return text;
+}
+
+Device describe(const cl::Device& handle, const std::string& platform, const std::string& version) {
+    Device d;
+    d.handle = handle;
+    d.platform = platform;
+    d.platform_version = version;
+    d.name = trimmed(info<CL_DEVICE_NAME>(handle, std::string("unnamed device")));
+    d.driver = trimmed(info<CL_DRIVER_VERSION>(handle, std::string()));
+    d.c_version = trimmed(info<CL_DEVICE_OPENCL_C_VERSION>(handle, std::string()));
+    d.type = info<CL_DEVICE_TYPE>(handle, cl_device_type{0});
+    d.fp64 = info<CL_DEVICE_DOUBLE_FP_CONFIG>(handle, cl_device_fp_config{0}) != 0;
+    const auto single = info<CL_DEVICE_SINGLE_FP_CONFIG>(handle, cl_device_fp_config{0});
+    d.fma = (single & CL_FP_FMA) != 0;
+    d.denormals = (single & CL_FP_DENORM) != 0;
+    d.correct_divide_sqrt = (single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    d.compute_units = info<CL_DEVICE_MAX_COMPUTE_UNITS>(handle, 0u);
+    d.clock_mhz = info<CL_DEVICE_MAX_CLOCK_FREQUENCY>(handle, 0u);
+    d.memory_bytes = info<CL_DEVICE_GLOBAL_MEM_SIZE>(handle, 0ull);
+    return d;
+}
+
+void append_devices(const cl::Platform& platform, std::vector<Device>& all) {
+    try {
+        std::vector<cl::Device> handles;
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &handles);
+        const std::string name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+        const std::string version = trimmed(platform.getInfo<CL_PLATFORM_VERSION>());
+        for (const cl::Device& handle : handles) all.push_back(describe(handle, name, version));
+    } catch (const cl::Error&) {
+        // Installed without a usable device (Clover on a machine without a GPU answers so).
+    }
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+const Device& default_device(const std::vector<Device>& all) {
+    const auto pocl = std::find_if(all.begin(), all.end(), [](const Device& d) {
+        return d.platform == "Portable Computing Language" && (d.type & CL_DEVICE_TYPE_CPU) != 0;
+    });
+    return pocl == all.end() ? all.front() : *pocl;
+}
+
+}  // namespace
+
+std::vector<Device> devices() {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {};  // the loader's answer to no platform at all
+    }
+    std::vector<Device> all;
+    for (const cl::Platform& platform : platforms) append_devices(platform, all);
+    return all;
+}
+
+Choice choose_device(const std::vector<Device>& all, std::string wanted) {
+    std::string option = "--device";
+    if (const char* variable = std::getenv("CLVNDF_DEVICE"); wanted.empty() && variable) {
+        option = "CLVNDF_DEVICE";
+        wanted = variable;
+    }
+    if (all.empty()) {
+        throw DeviceError(
+            "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
+    }
+    if (wanted.empty()) return {default_device(all), {}};
+
+    std::vector<const Device*> matches;
+    std::string labels;
+    for (const Device& d : all) {
+        labels += (labels.empty() ? "'" : ", '") + d.label() + "'";
+        const bool match = lower(d.platform).find(lower(wanted)) != std::string::npos ||
+                           lower(d.name).find(lower(wanted)) != std::string::npos;
+        if (match) matches.push_back(&d);
+    }
+    if (matches.empty()) {
+        throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option,
+                                     wanted, labels));
+    }
+    if (matches.size() == 1) return {*matches.front(), {}};
+    return {*matches.front(), fmt::format("{}: '{}' matches {} devices; taking '{}'", option, wanted,
+                                          matches.size(), matches.front()->label())};
+}
+
+Choice choose_device(std::string wanted) {
+    return choose_device(devices(), std::move(wanted));
+}
+
+}  // namespace vndf::runtime
