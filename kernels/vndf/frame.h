@@ -120,7 +120,8 @@ struct vndf_impl_view {
 };
 
 // Squares of alpha wo.x are formed 2^27 times larger: they keep full precision down to wo.x = 1e-19 for every
-// alpha in the domain, and the largest, (2^27 1e3)^2, is far from overflow.
+// alpha in the domain, and the largest, (2^27 1e3)^2, is far from overflow. Each root feeds the next: LLVM
+// packs independent roots into short vectors, and the kernel around them is then not vectorised.
 VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF_REAL vz) {
     struct vndf_impl_view v;
     VNDF_REAL kx = vx * VNDF_R(134217728.0), ky = vy * VNDF_R(134217728.0);
@@ -130,7 +131,7 @@ VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF
     v.z = vz;
     v.l = kl * VNDF_R(7.450580596923828125e-09);
     v.rcp_l = v.l > VNDF_R(0.0) ? VNDF_R(1.0) / v.l : VNDF_R(0.0);
-    v.r = VNDF_SQRT(VNDF_FMA(vx, vx, VNDF_FMA(vy, vy, vz * vz)));
+    v.r = VNDF_SQRT(VNDF_FMA(v.l, v.l, vz * vz));
     v.t = VNDF_SQRT(v.r * (v.r + vndf_impl_abs(vz)));
     v.rcp_t = VNDF_R(1.0) / v.t;
     v.alpha_x = v.alpha_y = VNDF_R(1.0);

@@ -128,7 +128,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL pdf = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * (cos_om / twice_sigma);
+    VNDF_REAL pdf = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * cos_om / twice_sigma;
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
@@ -147,17 +147,17 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     x *= h.scale;
     y *= h.scale;
     h.z = z * h.scale;
-    VNDF_REAL sx = x / alpha_x, sy = y / alpha_y;
+    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
     h.length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, h.z * h.z));
     h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
-    h.q_slope = vndf_impl_abs(sx) / alpha_x + vndf_impl_abs(sy) / alpha_y + vndf_impl_abs(h.z);
+    h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, vndf_impl_abs(h.z)));
     return h;
 }
 // D / (2 n) of the half vector, for a normaliser n.
 VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
     VNDF_REAL ratio = h.length2 / h.q;
-    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI / n) * (ratio / alpha_x) * (ratio / alpha_y);
+    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (alpha_x * alpha_y);
     return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
@@ -281,7 +281,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     m.x = defined ? gx * rcp : VNDF_R(0.0);
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? hz * rcp : VNDF_R(1.0);
-    VNDF_REAL pdf = VNDF_1_PI * weight * (length / alpha_x) * (length / alpha_y) * length;
+    VNDF_REAL pdf = (VNDF_1_PI * weight * length / (alpha_x * alpha_y)) * length2;
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }

@@ -59,7 +59,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     o.z = VNDF_FMA(twice, hz, -wo.z) * rcp_wo;
     VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = g2 / h2;
     VNDF_REAL n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) * rcp_wo;
-    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI / n) * (ratio / v.alpha_x) * (ratio / v.alpha_y);
+    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return o;
 }
