@@ -34,9 +34,7 @@ std::string indented(const std::string& text) {
 
 DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, const ProgramOptions& options)
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
-    if (real == Real::f64 && !device.fp64) {
-        throw InputError(fmt::format("--real double: '{}' has no fp64; float is allowed", device.label()));
-    }
+    require_real(device, real);
     const Assembly assembly{options.functions, options.substitutions};
     const std::string source =
         assemble("kernels/batch/batch.cl", assembly) + assemble("kernels/batch/uniforms.cl");

@@ -115,6 +115,12 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted) {
                                           matches.size(), matches.front()->label())};
 }
 
+void require_real(const Device& device, Real real) {
+    if (real == Real::f64 && !device.fp64) {
+        throw InputError(fmt::format("--real double: '{}' has no fp64; float is allowed", device.label()));
+    }
+}
+
 Choice choose_device(std::string wanted) {
     return choose_device(devices(), std::move(wanted));
 }

@@ -40,4 +40,7 @@ struct Choice {
 Choice choose_device(std::string wanted = {});
 Choice choose_device(const std::vector<Device>& all, std::string wanted);
 
+// Throws InputError if the device has no numbers of this type.
+void require_real(const Device& device, Real real);
+
 }  // namespace vndf::runtime

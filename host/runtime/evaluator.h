@@ -40,10 +40,13 @@ class Evaluator {
     virtual std::string describe() const = 0;
 };
 
+// Throws InputError for Math::native, which exists on devices only.
+void require_host_policy(Math math);
+
 // kernels/vndf compiled as C++, Math::strict or Math::builtin.
 class HostEvaluator final : public Evaluator {
   public:
-    HostEvaluator(Math math, Real real);  // throws InputError for Math::native
+    HostEvaluator(Math math, Real real) : math_(math), real_(real) { require_host_policy(math); }
     void run(const Function& function, std::size_t n, const std::vector<const void*>& inputs,
              const std::vector<void*>& outputs) override;
     Real input_real() const override { return real_; }

@@ -6,7 +6,7 @@
 
 namespace vndf::runtime {
 
-HostEvaluator::HostEvaluator(Math math, Real real) : math_(math), real_(real) {
+void require_host_policy(Math math) {
     if (math == Math::native) {
         throw InputError(
             "--math native: the host build has no native functions; strict or builtin are allowed");

@@ -1,0 +1,36 @@
+// The commands. Each add_* defines its options and what runs when it is chosen.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "runtime/devices.h"
+#include "runtime/evaluator.h"
+
+namespace vndf::cli {
+
+// Options of every command.
+struct Common {
+    std::uint64_t seed = 1;
+    bool quiet = false;
+    int exit_status = 0;  // set by a command that ran to its end with a verdict: 1 for a failed check
+};
+
+// Options of the commands that run kernels.
+struct Target {
+    std::string device, math_name = "strict", real_name = "float";
+
+    void add_to(CLI::App& command);
+    runtime::Math math() const;
+    runtime::Real real() const;
+    // The device asked for; unless quiet, stderr says which one was taken of several.
+    runtime::Device choose(const Common& common) const;
+};
+
+void add_devices(CLI::App& app, Common& common);
+void add_list(CLI::App& app, Common& common);
+void add_eval(CLI::App& app, Common& common);
+
+}  // namespace vndf::cli

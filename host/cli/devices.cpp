@@ -1,0 +1,42 @@
+// clvndf devices
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "error.h"
+
+namespace vndf::cli {
+namespace {
+
+std::string_view yes_no(bool b) {
+    return b ? "yes" : "no";
+}
+
+void print(const runtime::Device& d) {
+    fmt::print("{}\n", d.label());
+    fmt::print("  {:32}{}\n", "platform version", d.platform_version);
+    fmt::print("  {:32}{}\n", "driver version", d.driver);
+    fmt::print("  {:32}{}\n", "OpenCL C version", d.c_version);
+    fmt::print("  {:32}{}\n", "double (fp64)", yes_no(d.fp64));
+    fmt::print("  {:32}{}\n", "fma in hardware", yes_no(d.fma));
+    fmt::print("  {:32}{}\n", "denormals", yes_no(d.denormals));
+    fmt::print("  {:32}{}\n", "correctly rounded / and sqrt", yes_no(d.correct_divide_sqrt));
+    fmt::print("  {:32}{}\n", "compute units", d.compute_units);
+    fmt::print("  {:32}{} MHz\n", "clock", d.clock_mhz);
+    fmt::print("  {:32}{:.1f} GiB\n", "memory", static_cast<double>(d.memory_bytes) / (1u << 30));
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app, Common&) {
+    app.add_subcommand("devices", "every OpenCL device, with the capabilities that matter here")
+        ->callback([] {
+            const auto devices = runtime::devices();
+            if (devices.empty()) {
+                throw DeviceError(
+                    "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
+            }
+            for (const runtime::Device& device : devices) print(device);
+        });
+}
+
+}  // namespace vndf::cli

@@ -1,0 +1,54 @@
+// clvndf list
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "registry.h"
+
+namespace vndf::cli {
+namespace {
+
+nlohmann::ordered_json to_json(const Function& f) {
+    nlohmann::ordered_json json = {
+        {"name", f.name},     {"ndf", to_string(f.ndf)}, {"kind", to_string(f.kind)},
+        {"inputs", f.inputs}, {"outputs", f.outputs},    {"source", f.source}};
+    if (f.kind == Kind::sampler) {
+        json["density"] = f.density;
+        json["method"] = to_string(f.method);
+        json["domain"] = to_string(f.domain);
+        json["p99_front"] = f.p99_front;
+        json["p99_back"] = f.p99_back;
+    } else {
+        json["bound"] = f.bound;
+    }
+    return json;
+}
+
+void print_json() {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const Function& f : functions()) all.push_back(to_json(f));
+    fmt::print("{}\n", all.dump(2));
+}
+
+void print_table() {
+    std::size_t widest = 0;
+    for (const Function& f : functions()) widest = std::max(widest, f.name.size());
+    for (const Function& f : functions()) {
+        fmt::print("{:{}}  {:8}  {} -> {}\n", f.name, widest, to_string(f.kind), fmt::join(f.inputs, ","),
+                   fmt::join(f.outputs, ","));
+    }
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Common&) {
+    CLI::App* command = app.add_subcommand("list", "the functions, with their arguments and results");
+    const auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "everything that the registry knows, as JSON");
+    command->callback([json] { *json ? print_json() : print_table(); });
+}
+
+}  // namespace vndf::cli
