@@ -22,7 +22,8 @@ struct InputError : Error {
     explicit InputError(const std::string& message) : Error(2, message) {}
 };
 
-// A device or a build failed: the message says what, on which device, with which options, at which source line.
+// A device or a build failed: the message says what, on which device, with which options, at which source
+// line.
 struct DeviceError : Error {
     explicit DeviceError(const std::string& message) : Error(3, message) {}
 };

@@ -21,7 +21,8 @@ struct Function {
     Kind kind = Kind::term;
     bool with_pdf = false;
 
-    // The scalars in order, as CSV columns: {"wo_x", "wo_y", ...}; {"wm_x", "wm_y", "wm_z"[, "pdf"]} or {"value"}.
+    // The scalars in order, as CSV columns: {"wo_x", "wo_y", ...}; {"wm_x", "wm_y", "wm_z"[, "pdf"]} or
+    // {"value"}.
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
 
