@@ -16,8 +16,7 @@
 #define VNDF_EPSILON 5.96046447753906250000e-08f  // 2^-24
 #endif
 
-// --- Clamps of the public domain
-// -----------------------------------------------------------------------------
+// --- Clamps of the public domain ---
 
 // alpha raised to 1e-8, below which a float direction cannot tell the lobe from a mirror.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
@@ -35,18 +34,7 @@ VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
 }
 
-VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
-    return x < VNDF_R(0.0) ? -x : x;
-}
-VNDF_FN VNDF_REAL vndf_impl_max(VNDF_REAL a, VNDF_REAL b) {
-    return a > b ? a : b;
-}
-VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL a, VNDF_REAL b) {
-    return a < b ? a : b;
-}
-
-// --- Products and sums with one rounding or little more
-// ------------------------------------------------------
+// --- Products and sums with one rounding or little more ---
 
 // a b - c d without cancellation error: at most 1.5 ulp (Kahan).
 VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c, VNDF_REAL d) {
@@ -97,8 +85,7 @@ VNDF_FN VNDF_REAL vndf_impl_scale(VNDF_REAL x) {
 #endif
 }
 
-// --- Directions and samples as scalars
-// -----------------------------------------------------------------------
+// --- Directions and samples as scalars ---
 
 struct vndf_impl_sample {
     VNDF_REAL x, y, z, pdf;
@@ -167,8 +154,7 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(struct vndf_impl_view v) {
     return cap;
 }
 
-// --- Public geometry
-// -----------------------------------------------------------------------------------------
+// --- Public geometry ---
 
 // The mirror direction of wo about wm.
 // Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 39 (i = wo,

@@ -184,8 +184,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_finite(vndf_ggx_ndf(wm, alpha) * wm.z);
 }
 
-// --- Visible slopes at alpha = 1, in the plane of incidence
-// --------------------------------------------------
+// --- Visible slopes at alpha = 1, in the plane of incidence ---
 
 // cos_theta - x sin_theta of the angle between the view direction and the slope x, over sqrt(1 + x^2): the
 // sine carries its rounding error along, since the difference vanishes at the end of the visible range.
@@ -264,8 +263,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
     return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
 
-// --- What the samplers share
-// ---------------------------------------------------------------------------------
+// --- What the samplers share ---
 
 // Unstretches h, a normal of any length in the stretched frame, and normalises it; the density of the result
 // is weight |g|^3 / (pi alpha_x alpha_y), g = (alpha_x h.x, alpha_y h.y, h.z).

@@ -45,7 +45,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(VNDF_REAL3 wo
     struct vndf_impl_incidence i = vndf_impl_ggx_incidence(wo, alpha, u.x);
     VNDF_REAL u2 = vndf_impl_u(u.y);
     int upper = u2 > VNDF_R(0.5);
-    VNDF_REAL kappa = vndf_impl_kepler_kappa(upper ? VNDF_R(1.0) - u2 : u2);
+    VNDF_REAL kappa = vndf_impl_kepler_k(upper ? VNDF_R(1.0) - u2 : u2);
     VNDF_REAL cos_lambda = vndf_impl_kepler_sin_half(kappa), sin_lambda = vndf_impl_kepler_cos_half(kappa);
     return vndf_impl_ggx_slope_normal(i, upper ? sin_lambda : -sin_lambda, cos_lambda,
                                       VNDF_R(2.0) * cos_lambda);
