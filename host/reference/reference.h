@@ -25,18 +25,17 @@ using Evaluation = void (*)(const R* in, R* out, Precision);
 template <class R>
 Evaluation<R> find_evaluation(std::string_view name);
 
-// As Evaluation, for samplers only; returns the condition number of the direction,
+// The condition number of a sampler's direction at `in`,
 //   sum over the inputs x_j of |x_j| * |d direction / d x_j|  +  |d direction / d (rotation of the stretched
 //   azimuth)|.
-// The derivatives are exact (dual numbers, in double for every R). At a switch between the branches of a
-// map they are those of the branch taken.
-template <class R>
-using ConditionedEvaluation = double (*)(const R* in, R* out, Precision);
+// The derivatives are exact (dual numbers). At a switch between the branches of a map they are those of the
+// branch taken.
+using ConditionFunction = double (*)(const double* in, Precision);
 
-template <class R>
-ConditionedEvaluation<R> find_conditioned(std::string_view sampler);
+// For a sampler's name, with or without _with_pdf; nullptr for other names.
+ConditionFunction find_condition(std::string_view sampler);
 
-// The condition number alone; throws std::invalid_argument if `sampler` is no sampler.
+// The same by name; throws std::invalid_argument if `sampler` is no sampler.
 double condition(std::string_view sampler, const double* in, Precision precision);
 
 // How far inside its cap the direction wi lies for vndf_ggx_pdf_wi_eto2023, whose scalars `in` are:

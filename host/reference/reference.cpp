@@ -1,0 +1,333 @@
+// The names of the registry, bound to the reference's templates for double and long double.
+#include "host/reference/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "host/reference/terms.h"
+
+namespace vndf::reference {
+namespace {
+
+// --- Scalars to arguments
+// --------------------------------------------------------------------------------------
+
+// NaN stays NaN.
+template <class R>
+R clamped_alpha(const R& alpha, Precision precision) {
+    const Real<R> least = precision == Precision::f32 ? Real<R>(1e-8f) : Real<R>(1e-8);
+    return alpha < least ? R(least) : alpha;
+}
+
+template <class R>
+R clamped_u(const R& u, Precision precision) {
+    using T = Real<R>;
+    const T low = precision == Precision::f32 ? T(0x1p-33) : T(0x1p-65);
+    const T high = precision == Precision::f32 ? T(1 - 0x1p-24) : T(1 - 0x1p-53);
+    return u < low ? R(low) : u > high ? R(high) : u;
+}
+
+template <class R>
+Vec3<R> vec3(const R* in) {
+    return {in[0], in[1], in[2]};
+}
+
+enum class Layout { wo_alpha_u, wo_n_alpha1_u, alpha_u };
+constexpr std::size_t scalars(Layout layout) {
+    return layout == Layout::wo_alpha_u ? 7 : layout == Layout::wo_n_alpha1_u ? 9 : 4;
+}
+
+template <class R>
+Arguments<R> arguments(Layout layout, const R* in, Precision precision) {
+    Arguments<R> a;
+    if (layout != Layout::alpha_u) {
+        a.wo = normalised(vec3(in));
+        in += 3;
+    }
+    if (layout == Layout::wo_n_alpha1_u) {
+        a.n = normalised(vec3(in));
+        in += 3;
+    }
+    a.alpha_x = clamped_alpha(*in++, precision);
+    a.alpha_y = layout == Layout::wo_n_alpha1_u ? a.alpha_x : clamped_alpha(*in++, precision);
+    a.u1 = clamped_u(in[0], precision);
+    a.u2 = clamped_u(in[1], precision);
+    a.v1 = 1 - a.u1;
+    a.v2 = 1 - a.u2;
+    a.rotation = R(0);
+    return a;
+}
+
+template <class R>
+R finite(const R& x, Precision precision) {
+    const R bound = largest<R>(precision);
+    return x > bound ? bound : x < -bound ? R(-bound) : x;
+}
+
+// --- Samplers
+// --------------------------------------------------------------------------------------------------
+
+template <class R, Sample<R> (*map)(const Arguments<R>&), Layout layout>
+void evaluate_sampler(const R* in, R* out, Precision precision) {
+    const Sample<R> s = map(arguments(layout, in, precision));
+    out[0] = s.direction.x, out[1] = s.direction.y, out[2] = s.direction.z;
+}
+template <class R, Sample<R> (*map)(const Arguments<R>&), Layout layout>
+void evaluate_sampler_pdf(const R* in, R* out, Precision precision) {
+    const Sample<R> s = map(arguments(layout, in, precision));
+    out[0] = s.direction.x, out[1] = s.direction.y, out[2] = s.direction.z;
+    out[3] = finite(s.pdf, precision);
+}
+
+using D = Dual<double, 10>;
+
+template <Sample<D> (*map)(const Arguments<D>&), Layout layout>
+double sampler_condition(const double* in, Precision precision) {
+    constexpr std::size_t n = scalars(layout);
+    D x[n];
+    for (std::size_t i = 0; i < n; ++i) x[i] = D::variable(in[i], i);
+    Arguments<D> a = arguments(layout, x, precision);
+    a.rotation = D::variable(0, n);
+    const Vec3<D> d = map(a).direction;
+    double sum = 0;
+    for (std::size_t i = 0; i <= n; ++i)
+        sum += (i < n ? std::abs(in[i]) : 1) * std::hypot(d.x.partial[i], d.y.partial[i], d.z.partial[i]);
+    return sum;
+}
+
+struct Condition {
+    std::string_view name;
+    double (*function)(const double*, Precision);
+};
+
+template <class R>
+struct Entry {
+    std::string_view name;
+    Evaluation<R> function;
+};
+
+// Expands X(name, map, layout) for every sampler.
+#define VNDF_REFERENCE_SAMPLERS(X)                                                   \
+    X(vndf_ggx_sample_wm_heitz_deon2014, ggx_heitz_deon2014, wo_alpha_u)             \
+    X(vndf_ggx_sample_wm_heitz_deon2014_exact, ggx_heitz_deon2014_exact, wo_alpha_u) \
+    X(vndf_ggx_sample_wm_heitz2017, ggx_heitz2017, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_heitz2018, ggx_heitz2018, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_dupuy2023, ggx_dupuy2023, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_benyoub2024, ggx_benyoub2024, wo_n_alpha1_u)                \
+    X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                           \
+    X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                        \
+    X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)   \
+    X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)             \
+    X(vndf_beckmann_sample_wm_walter2007, beckmann_walter2007, alpha_u)
+
+#define VNDF_CONDITION(name, map, layout) {#name, sampler_condition<map<D>, Layout::layout>},
+constexpr Condition conditions[] = {VNDF_REFERENCE_SAMPLERS(VNDF_CONDITION)};
+#undef VNDF_CONDITION
+
+// --- Terms
+// -----------------------------------------------------------------------------------------------------
+
+// The scalars of one call, taken in order.
+template <class R>
+struct Reader {
+    const R* in;
+    Precision precision;
+    R scalar() { return *in++; }
+    R u() { return clamped_u(*in++, precision); }
+    R alpha() { return clamped_alpha(*in++, precision); }
+    Vec3<R> vector() {
+        in += 3;
+        return vec3(in - 3);
+    }
+    View<R> stretched(const Vec3<R>& w) {
+        const R ax = alpha(), ay = alpha();
+        return view(w, ax, ay);
+    }
+};
+
+template <class R, R (*term)(Reader<R>)>
+void evaluate_term(const R* in, R* out, Precision precision) {
+    *out = finite(term({in, precision}), precision);
+}
+template <class R, Vec3<R> (*function)(Reader<R>)>
+void evaluate_vector(const R* in, R* out, Precision precision) {
+    const Vec3<R> w = function({in, precision});
+    out[0] = w.x, out[1] = w.y, out[2] = w.z;
+}
+
+template <class N, class R>
+struct Terms {
+    static R ndf(Reader<R> in) {
+        const Vec3<R> m = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return N::template ndf<R>(m, ax, ay);
+    }
+    static R p22(Reader<R> in) {
+        const R x = in.scalar(), y = in.scalar(), ax = in.alpha(), ay = in.alpha();
+        return N::template p22<R>(squared(R(x / ax)) + squared(R(y / ay))) / ax / ay;
+    }
+    static R lambda(Reader<R> in) {
+        const Vec3<R> w = in.vector();
+        return reference::lambda<N>(in.stretched(w));
+    }
+    static R sigma(Reader<R> in) {
+        const Vec3<R> w = in.vector();
+        return N::template sigma<R>(in.stretched(w));
+    }
+    static R g1(Reader<R> in) {
+        const Vec3<R> w = in.vector();
+        return reference::g1<N>(in.stretched(w));
+    }
+    static R g2(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return reference::g2<N>(view(wo, ax, ay), view(wi, ax, ay));
+    }
+    static R g2_separable(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return reference::g1<N>(view(wo, ax, ay)) * reference::g1<N>(view(wi, ax, ay));
+    }
+    static R pdf_wm(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wm = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return reference::pdf_wm<N>(wo, wm, ax, ay);
+    }
+    static R pdf_wi(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return reference::pdf_wi<N>(wo, wi, ax, ay);
+    }
+    static R pdf_wm_walter2007(Reader<R> in) { return ndf(in) * in.in[2]; }
+};
+
+template <class R>
+R ggx_pdf_wi_eto2023_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), wi = in.vector();
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_pdf_wi_eto2023(wo, wi, ax, ay, in.precision);
+}
+// About n: what counts of wm and wo is their part along n and the rest.
+template <class R>
+R ggx_pdf_wm_benyoub2024_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), n = normalised(in.vector()), wm = in.vector();
+    const R alpha = in.alpha();
+    const Frame<R> f = frame(n);
+    return pdf_wm<Ggx>(to_local(f, wo), to_local(f, wm), alpha, alpha);
+}
+
+template <class R, R (*f)(const R&, const R&)>
+R of_cosine_x(Reader<R> in) {
+    const R c = in.scalar();
+    return f(c, in.scalar());
+}
+template <class R>
+R ggx_slope_cdf_inverse_of(Reader<R> in) {
+    const R c = in.scalar(), u = in.u();
+    return ggx_slope_cdf_inverse<R>(c, u, 1 - u);
+}
+template <class R>
+R beckmann_slope_cdf_inverse_of(Reader<R> in) {
+    const R c = in.scalar();
+    return beckmann_slope_cdf_inverse(c, in.u());
+}
+
+template <class R>
+Vec3<R> reflect_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector();
+    return reflect(wo, in.vector());
+}
+template <class R>
+Vec3<R> refract_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), wm = in.vector();
+    return refract(wo, wm, in.scalar());
+}
+template <class R>
+R jacobian_reflect_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector();
+    return 1 / (4 * std::abs(dot(wo, in.vector())));
+}
+template <class R>
+R jacobian_refract_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), wi = in.vector();
+    return jacobian_refract(wo, wi, in.scalar());
+}
+
+template <class R>
+using Slope2 = R (*)(const R&, const R&);
+
+// clang-format off
+template <class R>
+constexpr Entry<R> entries[] = {
+#define VNDF_ENTRIES(name, map, layout)                                  \
+    {#name, evaluate_sampler<R, map<R>, Layout::layout>},                \
+    {#name "_with_pdf", evaluate_sampler_pdf<R, map<R>, Layout::layout>},
+    VNDF_REFERENCE_SAMPLERS(VNDF_ENTRIES)
+#undef VNDF_ENTRIES
+#define VNDF_ENTRIES(ndf, N, term) {"vndf_" #ndf "_" #term, evaluate_term<R, Terms<N, R>::term>},
+#define VNDF_BOTH(term) VNDF_ENTRIES(ggx, Ggx, term) VNDF_ENTRIES(beckmann, Beckmann, term)
+    VNDF_BOTH(ndf) VNDF_BOTH(p22) VNDF_BOTH(lambda) VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2)
+    VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
+#undef VNDF_BOTH
+#undef VNDF_ENTRIES
+    {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_eto2023_of<R>>},
+    {"vndf_ggx_pdf_wm_benyoub2024", evaluate_term<R, ggx_pdf_wm_benyoub2024_of<R>>},
+    {"vndf_ggx_slope_pdf", evaluate_term<R, of_cosine_x<R, ggx_slope_pdf<R>>>},
+    {"vndf_ggx_slope_cdf", evaluate_term<R, of_cosine_x<R, ggx_slope_cdf<R>>>},
+    {"vndf_ggx_slope_cdf_inverse", evaluate_term<R, ggx_slope_cdf_inverse_of<R>>},
+    {"vndf_beckmann_slope_pdf", evaluate_term<R, of_cosine_x<R, static_cast<Slope2<R>>(beckmann_slope_pdf<R>)>>},
+    {"vndf_beckmann_slope_cdf", evaluate_term<R, of_cosine_x<R, beckmann_slope_cdf<R>>>},
+    {"vndf_beckmann_slope_cdf_inverse", evaluate_term<R, beckmann_slope_cdf_inverse_of<R>>},
+    {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},
+    {"vndf_refract", evaluate_vector<R, refract_of<R>>},
+    {"vndf_jacobian_reflect", evaluate_term<R, jacobian_reflect_of<R>>},
+    {"vndf_jacobian_refract", evaluate_term<R, jacobian_refract_of<R>>},
+};
+// clang-format on
+
+template <class Table>
+auto find(const Table& table, std::string_view name) {
+    const auto at =
+        std::find_if(std::begin(table), std::end(table), [&](const auto& e) { return e.name == name; });
+    return at == std::end(table) ? nullptr : at->function;
+}
+
+// The plain name of a sampler's either form.
+std::string_view plain(std::string_view name) {
+    constexpr std::string_view suffix = "_with_pdf";
+    return name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix
+               ? name.substr(0, name.size() - suffix.size())
+               : name;
+}
+
+}  // namespace
+
+template <class R>
+Evaluation<R> find_evaluation(std::string_view name) {
+    return find(entries<R>, name);
+}
+template Evaluation<double> find_evaluation(std::string_view);
+template Evaluation<long double> find_evaluation(std::string_view);
+
+ConditionFunction find_condition(std::string_view sampler) {
+    return find(conditions, plain(sampler));
+}
+
+double condition(std::string_view sampler, const double* in, Precision precision) {
+    const ConditionFunction f = find_condition(sampler);
+    if (!f) throw std::invalid_argument("no condition number for " + std::string(sampler));
+    return f(in, precision);
+}
+
+double cap_margin(const double* in, Precision precision) {
+    Reader<double> reader{in, precision};
+    const Vec3<double> wo = reader.vector(), wi = reader.vector();
+    if (!(wo.z > 0)) return std::numeric_limits<double>::infinity();
+    const Margin<double> margin = eto_margin(wo, wi, reader.stretched(wo));
+    return margin.inside / (margin.per_unit * (precision == Precision::f32 ? 0x1p-24 : 0x1p-53));
+}
+
+}  // namespace vndf::reference

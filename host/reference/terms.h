@@ -1,0 +1,225 @@
+// The distributions' terms and densities, of the vectors as given (not normalised).
+#pragma once
+
+#include "host/reference/maps.h"
+
+namespace vndf::reference {
+
+template <class R>
+R largest(Precision precision) {
+    return precision == Precision::f32 ? R(std::numeric_limits<float>::max())
+                                       : R(std::numeric_limits<double>::max());
+}
+
+// What the distributions supply: P22 at alpha = 1, D, sigma, Lambda, and D / sigma in one exponent.
+struct Ggx {
+    template <class R>
+    static R p22(const R& square) {
+        return 1 / (pi<R>() * squared(R(1 + square)));
+    }
+    template <class R>
+    static R ndf(const Vec3<R>& m, const R& ax, const R& ay) {
+        if (!(m.z > 0)) return R(0);
+        const R q = squared(R(m.x / ax)) + squared(R(m.y / ay)) + squared(m.z);
+        return 1 / (pi<R>() * (q * ax) * (q * ay));
+    }
+    template <class R>
+    static R sigma(const View<R>& v) {
+        using std::sin;
+        return v.length * squared(R(sin(v.nu / 2)));
+    }
+    // sigma = (1 + Lambda) z: half the gap between the stretched length and its z.
+    template <class R>
+    static R lambda(const View<R>& v) {
+        using std::sin;
+        return squared(R(sin(v.theta / 2))) * (v.length / v.up);
+    }
+    template <class R>
+    static R visible(const Vec3<R>& m, const View<R>& v) {
+        return ndf(m, v.alpha_x, v.alpha_y) / sigma(v);
+    }
+};
+
+struct Beckmann {
+    template <class R>
+    static R p22(const R& square) {
+        using std::exp;
+        return exp(-square) / pi<R>();
+    }
+    template <class R>
+    static R exponent(const Vec3<R>& m, const R& ax, const R& ay) {
+        return squared(R(m.x / m.z / ax)) + squared(R(m.y / m.z / ay));
+    }
+    // e^(shift) D
+    template <class R>
+    static R ndf(const Vec3<R>& m, const R& ax, const R& ay, const R& shift = R(0)) {
+        using std::exp;
+        if (!(m.z > 0)) return R(0);
+        const R height = exp(shift - exponent(m, ax, ay)), z2 = m.z * m.z;
+        return height > 0 ? R(height / (ax * z2) / (ay * z2) / pi<R>()) : R(0);
+    }
+    template <class R>
+    static R sigma(const View<R>& v) {
+        using std::erfc, std::exp;
+        if (nothing_visible(v)) return R(0);
+        const Slopes<R> s = beckmann_slopes(v.across, v.up);
+        if (s.a < 0) return v.across * s.weight * exp(-s.a * s.a) / 2;
+        return (v.up * erfc(-s.a) + v.across * rcp_sqrt_pi<R>() * exp(-s.a * s.a)) / 2;
+    }
+    // sigma / z - 1 = first(a) e^(-a^2) / (2 a) for a > 0, -1 minus that for |a| behind the surface.
+    template <class R>
+    static R lambda(const View<R>& v) {
+        using std::abs, std::exp;
+        const R a = abs(beckmann_slopes(v.across, v.up).a);
+        const R above = gaussian_tail<R>(a).first * exp(-a * a) / (2 * a);
+        return v.up < 0 ? R(-1 - above) : above;
+    }
+    template <class R>
+    static R visible(const Vec3<R>& m, const View<R>& v) {
+        const Slopes<R> s = beckmann_slopes(v.across, v.up);
+        if (!(s.a < 0)) return ndf(m, v.alpha_x, v.alpha_y) / sigma(v);
+        return ndf(m, v.alpha_x, v.alpha_y, R(s.a * s.a)) / (v.across * s.weight / 2);
+    }
+};
+
+// Lambda; at the pole z = 0 what z -> 0 from above gives, which the caller makes finite.
+template <class N, class R>
+R lambda(const View<R>& v) {
+    if (!(v.up > 0) && !(v.up < 0)) return R(std::numeric_limits<Real<R>>::infinity());
+    return N::template lambda<R>(v);
+}
+template <class N, class R>
+R g1(const View<R>& v) {
+    return v.up > 0 ? R(1 / (1 + lambda<N>(v))) : R(0);
+}
+template <class N, class R>
+R g2(const View<R>& o, const View<R>& i) {
+    return o.up > 0 && i.up > 0 ? R(1 / (1 + lambda<N>(o) + lambda<N>(i))) : R(0);
+}
+
+// max(wo . wm, 0) D(wm) / sigma(wo)
+template <class N, class R>
+R pdf_wm(const Vec3<R>& wo, const Vec3<R>& wm, const R& ax, const R& ay) {
+    const View<R> v = view(wo, ax, ay);
+    const R cosine = dot(wo, wm);
+    return wm.z > 0 && cosine > 0 && !nothing_visible(v) ? R(cosine * N::template visible<R>(wm, v)) : R(0);
+}
+
+// pdf_wm(h) / (4 wo . h) = D(h) / (4 sigma(wo)) for the half vector h.
+template <class N, class R>
+R pdf_wi(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay) {
+    const View<R> v = view(wo, ax, ay);
+    const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
+    return h.z > 0 && !nothing_visible(v) ? R(N::template visible<R>(h, v) / 4) : R(0);
+}
+
+// o_z + k cos(theta) of the stretched reflection o, and its change when each component of wi moves by 1: with
+// h = wo + wi and q = |A^-1 h|^2, o_z + cos(theta) = 2 (wo . h) h_z / (q t), wo . h = |h|^2 / 2.
+template <class R>
+struct Margin {
+    R inside, per_unit;
+};
+template <class R>
+Margin<R> eto_margin(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v) {
+    using std::abs;
+    const Bound<R> b = bound(v.alpha_x, v.alpha_y, hypotenuse(wo.x, wo.y), wo.z);
+    const Vec3<R> h{wo.x + wi.x, wo.y + wi.y, wo.z + wi.z};
+    const R sx = h.x / v.alpha_x, sy = h.y / v.alpha_y, q = sx * sx + sy * sy + h.z * h.z, h2 = dot(h, h);
+    const R height = h2 * h.z / (q * v.length);
+    const R slope_q = 2 * (abs(sx) / v.alpha_x + abs(sy) / v.alpha_y + abs(h.z));
+    const R slope_h2 = 2 * (abs(h.x) + abs(h.y) + abs(h.z));
+    return {height - b.gap * v.cos_theta,
+            abs(height) * slope_q / q + (slope_h2 * abs(h.z) + h2) / (q * v.length)};
+}
+
+// D(h) / (2 (k z + t)) on the bounded cap; outside by more than the rounding of wi can explain: 0.
+template <class R>
+R ggx_pdf_wi_eto2023(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay, Precision precision) {
+    if (!(wo.z > 0)) return pdf_wi<Ggx, R>(wo, wi, ax, ay);
+    const View<R> v = view(wo, ax, ay);
+    const Margin<R> margin = eto_margin(wo, wi, v);
+    const R unit = R(precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
+    if (margin.inside < -8 * unit * margin.per_unit) return R(0);
+    const Bound<R> b = bound(ax, ay, hypotenuse(wo.x, wo.y), wo.z);
+    const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
+    return Ggx::ndf(h, ax, ay) / (2 * (b.k * wo.z + v.length));
+}
+
+// The visible slope x in the plane of incidence at alpha = 1.
+template <class R>
+View<R> view_of_cosine(const R& cos_theta) {
+    using std::sqrt;
+    const R square = (1 - cos_theta) * (1 + cos_theta);
+    return view<R>({square > 0 ? R(sqrt(square)) : R(0), R(0), cos_theta}, R(1), R(1));
+}
+template <class R>
+R ggx_slope_pdf(const R& c, const R& x) {
+    using std::atan2, std::sqrt;
+    const View<R> v = view_of_cosine(c);
+    if (nothing_visible(v)) return R(0);
+    // x = -cot(beta): dbeta / dx = sin^2(beta)
+    return ggx_beta_pdf<R>(atan2(R(1), R(-x)), v.nu) / (1 + x * x);
+}
+template <class R>
+R ggx_slope_cdf(const R& c, const R& x) {
+    using std::atan2;
+    const View<R> v = view_of_cosine(c);
+    return nothing_visible(v) ? R(1) : ggx_beta_cdf<R>(atan2(R(1), R(-x)), v.nu);
+}
+template <class R>
+R ggx_slope_cdf_inverse(const R& c, const R& u, const R& rest) {
+    using std::cos, std::sin;
+    const View<R> v = view_of_cosine(c);
+    if (nothing_visible(v)) return R(-std::numeric_limits<Real<R>>::infinity());
+    const R beta = ggx_beta<R>(u, rest, v.nu).beta;
+    return -cos(beta) / sin(beta);
+}
+template <class R>
+Slope<R> slope_at(const Slopes<R>& s, const R& x) {
+    return {x, s.a - x};
+}
+template <class R>
+R beckmann_slope_pdf(const R& c, const R& x) {
+    const View<R> v = view_of_cosine(c);
+    if (nothing_visible(v)) return R(0);
+    const Slopes<R> s = beckmann_slopes(v.sin_theta, v.cos_theta);
+    return beckmann_slope_pdf(s, slope_at(s, x));
+}
+template <class R>
+R beckmann_slope_cdf(const R& c, const R& x) {
+    using std::exp;
+    const View<R> v = view_of_cosine(c);
+    if (nothing_visible(v)) return R(1);
+    const Slopes<R> s = beckmann_slopes(v.sin_theta, v.cos_theta);
+    return exp(beckmann_slope_log_cdf(s, slope_at(s, x)));
+}
+template <class R>
+R beckmann_slope_cdf_inverse(const R& c, const R& u) {
+    const View<R> v = view_of_cosine(c);
+    if (nothing_visible(v)) return R(-std::numeric_limits<Real<R>>::infinity());
+    return beckmann_slope_inverse(beckmann_slopes(v.sin_theta, v.cos_theta), u).x;
+}
+
+// Snell: the tangential part of -wo is divided by eta. A dot product of rounded vectors beyond 1 counts as 1
+// in the transmitted cosine.
+template <class R>
+Vec3<R> refract(const Vec3<R>& wo, const Vec3<R>& wm, const R& eta) {
+    using std::sqrt;
+    const R c = dot(wo, wm), c1 = c > 1 ? R(1) : c;
+    const R square = (eta * eta - (1 - c1) * (1 + c1)) / (eta * eta);
+    if (!(c > 0) || !(eta > 0) || square < 0) return {R(0), R(0), R(0)};
+    const R k = c / eta - sqrt(square);
+    return {k * wm.x - wo.x / eta, k * wm.y - wo.y / eta, k * wm.z - wo.z / eta};
+}
+
+// Walter's Equation 17 with h = wo + eta wi, m = h / |h|: eta^2 |wi . m| / (wo . m + eta wi . m)^2.
+template <class R>
+R jacobian_refract(const Vec3<R>& wo, const Vec3<R>& wi, const R& eta) {
+    using std::abs;
+    const Vec3<R> h{wo.x + eta * wi.x, wo.y + eta * wi.y, wo.z + eta * wi.z};
+    if (!(dot(h, h) > 0)) return R(std::numeric_limits<Real<R>>::infinity());
+    const Vec3<R> m = normalised(h);
+    return squared(R(eta / dot(h, m))) * abs(dot(wi, m));
+}
+
+}  // namespace vndf::reference
