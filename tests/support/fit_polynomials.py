@@ -1,0 +1,249 @@
+#!/usr/bin/env python3
+"""Fits the polynomials of kernels/vndf/math_polynomials.h and prints that header (needs python3-mpmath).
+
+    python3 tests/support/fit_polynomials.py > kernels/vndf/math_polynomials.h
+
+Each polynomial minimises the largest weighted error on a dense grid (Remez exchange). Coefficients are then rounded one
+by one, lowest power first; after each rounding the higher powers are fitted again, so that they absorb it.
+"""
+import struct
+
+import mpmath as mp
+from mpmath import mpf
+
+mp.mp.dps = 50
+LINES_PER_DEGREE = 24  # grid points for each coefficient
+
+
+def round_to(x, real):
+    if real == "double":
+        return mpf(float(x))
+    return mpf(struct.unpack("f", struct.pack("f", float(x)))[0])
+
+
+def solve_minimax(powers, target, weight, basis):
+    """Coefficients of sum c_j z^powers[j] that level |weight (target - sum)| over the grid; and the level."""
+    count = len(powers)
+    size = len(target)
+    chosen = [round((size - 1) * (1 - mp.cos(mp.pi * k / count)) / 2) for k in range(count + 1)]
+    for _ in range(30):
+        system = mp.matrix(count + 1, count + 1)
+        right = mp.matrix(count + 1, 1)
+        for row, k in enumerate(chosen):
+            for column, power in enumerate(powers):
+                system[row, column] = basis[k][power]
+            system[row, count] = (-1) ** row / weight[k]
+            right[row] = target[k]
+        solution = mp.lu_solve(system, right)
+        coefficients = [solution[j] for j in range(count)]
+        error = [
+            weight[k] * (target[k] - mp.fdot(coefficients, [basis[k][power] for power in powers])) for k in range(size)
+        ]
+        # The new points: the extremum of each run of equal sign, thinned from the ends to an alternating set.
+        extrema = []
+        for k in range(size):
+            if extrema and (error[k] > 0) == (error[extrema[-1]] > 0):
+                if abs(error[k]) > abs(error[extrema[-1]]):
+                    extrema[-1] = k
+            else:
+                extrema.append(k)
+        while len(extrema) > count + 1:
+            extrema.pop(0 if abs(error[extrema[0]]) < abs(error[extrema[-1]]) else -1)
+        worst = max(abs(e) for e in error)
+        if len(extrema) < count + 1 or extrema == chosen or worst < abs(solution[count]) * mpf("1.01"):
+            break
+        chosen = extrema
+    return coefficients, worst
+
+
+def fit(case, degree, real):
+    """Rounded coefficients, lowest power first, and the largest weighted error that remains."""
+    low, high = case["interval"][real]
+    size = LINES_PER_DEGREE * (degree + 2)
+    points = [low + (high - low) * (1 - mp.cos(mp.pi * (2 * k + 1) / (2 * size))) / 2 for k in range(size)]
+    target = [case["function"](z) for z in points]
+    weight = [case["weight"](z, f) for z, f in zip(points, target)]
+    basis = [[z**j for j in range(degree + 1)] for z in points]
+    rounded = {}
+    residual = list(target)
+    # On an interval with 0 inside, the powers from 1 up are no Chebyshev system: round from the highest power there.
+    first = 0 if low >= 0 else -1
+    while len(rounded) <= degree:
+        free = [j for j in range(degree + 1) if j not in rounded]
+        coefficients, _ = solve_minimax(free, residual, weight, basis)
+        power = free[first]
+        rounded[power] = round_to(coefficients[first], real)
+        residual = [r - rounded[power] * basis[k][power] for k, r in enumerate(residual)]
+    return [rounded[j] for j in range(degree + 1)], max(abs(w * r) for w, r in zip(weight, residual))
+
+
+def relative(_, f):
+    return 1 / abs(f)
+
+
+def absolute(*_):
+    return mpf(1)
+
+
+# ---- targets -------------------------------------------------------------------------------------------------------
+
+
+def log_tail(z):
+    """(log((1 + s) / (1 - s)) - 2 s) / s^3 in z = s^2."""
+    return mp.nsum(lambda k: 2 * z**k / (2 * k + 3), [0, mp.inf]) if z < 1e-4 else (
+        (mp.log((1 + mp.sqrt(z)) / (1 - mp.sqrt(z))) / mp.sqrt(z) - 2) / z)
+
+
+def exp_tail(r):
+    """(e^r - 1 - r) / r^2."""
+    return mp.nsum(lambda k: r**k / mp.factorial(k + 2), [0, 60]) if abs(r) < 1e-3 else (mp.expm1(r) - r) / r**2
+
+
+def erfcx_series(x):
+    """1 - sqrt(pi) x erfcx(x) = 1/(2 x^2) - 3/(2 x^2)^2 + ... for large x."""
+    total, term = mpf(0), mpf(1)
+    for k in range(1, 60):
+        term *= -(2 * k - 1) / (2 * x * x)
+        total -= term
+    return total
+
+
+def ierfcx(x):
+    """1 - sqrt(pi) x erfcx(x)."""
+    return 1 - mp.sqrt(mp.pi) * x * mp.exp(x * x) * mp.erfc(x) if x < 25 else erfcx_series(x)
+
+
+def erfcx(x):
+    return mp.exp(x * x) * mp.erfc(x) if x < 25 else (1 - erfcx_series(x)) / (mp.sqrt(mp.pi) * x)
+
+
+def flattened(x):
+    """1 + sqrt(pi) x + 2 x^2: 1 / ierfcx(x) at both ends."""
+    return 1 + mp.sqrt(mp.pi) * x + 2 * x * x
+
+
+def half_line(z):
+    """x of z = (x - 2) / (x + 2), which maps 0 ... infinity to -1 ... 1."""
+    return 2 * (1 + z) / (1 - z)
+
+
+def erfcinv_ratio(w):
+    """erfcinv(q) / (1 - q) for w = -log(q (2 - q))."""
+    if w == 0:
+        return mp.sqrt(mp.pi) / 2
+    p = mp.sqrt(-mp.expm1(-w))
+    log_q = -w - mp.log1p(p)
+    x = mp.sqrt(w) if w > 1 else p
+    for _ in range(80):
+        step = (mp.log(mp.erfc(x)) - log_q) * mp.erfc(x) * mp.sqrt(mp.pi) / 2 * mp.exp(x * x)
+        x += step
+        if abs(step) < x * mpf(10) ** -45:
+            break
+    return x / p
+
+
+def kepler_half(z):
+    """eta / 2 of eta - sin(eta) = k^3 / 6, z = k^2."""
+    k = mp.sqrt(z)
+    eta = k
+    for _ in range(60):
+        value = eta - mp.sin(eta) if eta > 0.01 else mp.nsum(
+            lambda j: -((-1) ** j) * eta ** (2 * j + 1) / mp.factorial(2 * j + 1), [1, 12])
+        step = (value - k**3 / 6) / (2 * mp.sin(eta / 2) ** 2)
+        eta -= step
+        if abs(step) < eta * mpf(10) ** -45:
+            break
+    return eta / 2
+
+
+KEPLER_END = mp.cbrt(6 * mp.pi) ** 2
+UP_TO_ONE = 1 - mpf("1e-12")
+
+
+def erfcinv_tail(shift):
+    return lambda z: (z + shift) * erfcinv_ratio(1 / (z + shift) ** 2)
+
+
+def tail_interval(low, high, shift):
+    return 1 / mp.sqrt(mpf(high)) - shift, 1 / mp.sqrt(mpf(low)) - shift
+
+
+def piece(function, float_interval, double_interval, weight=relative):
+    return dict(function=function, weight=weight, interval={"float": float_interval, "double": double_interval})
+
+
+# Each case: one polynomial, or several over adjoining intervals whose coefficients are selected together.
+CASES = [
+    dict(name="SIN_2PI", what="sin(2 pi x) / x in z = x^2, |x| <= 1/4", kind="relative",
+         degree=dict(float=4, double=9),
+         pieces=[piece(lambda z: mp.sin(2 * mp.pi * mp.sqrt(z)) / mp.sqrt(z), (mpf("1e-30"), mpf(1) / 16),
+                       (mpf("1e-30"), mpf(1) / 16))]),
+    dict(name="LOG", what="(log((1 + s) / (1 - s)) - 2 s) / s^3 in z = s^2, |s| <= 3 - 2 sqrt(2)",
+         kind="relative to the logarithm", degree=dict(float=2, double=6),
+         pieces=[piece(log_tail, *[(mpf(0), (3 - 2 * mp.sqrt(2)) ** 2)] * 2, lambda z, f: z / (2 + z * f))]),
+    dict(name="EXP", what="(exp(z) - 1 - z) / z^2, |z| <= log(2) / 2", kind="relative to exp(z)",
+         degree=dict(float=4, double=9),
+         pieces=[piece(exp_tail, *[(-mp.log(2) / 2, mp.log(2) / 2)] * 2, lambda z, f: z * z / mp.exp(z))]),
+    dict(name="ERF", what="erf(x) / x in z = x^2, |x| <= 1/2", kind="relative", degree=dict(float=4, double=9),
+         pieces=[piece(lambda z: mp.erf(mp.sqrt(z)) / mp.sqrt(z), *[(mpf("1e-30"), mpf(1) / 4)] * 2)]),
+    dict(name="ERFCX", what="erfcx(x) (1 + sqrt(pi) x + 2 x^2) / (1 + 2 x / sqrt(pi)) in z = (x - 2) / (x + 2), x >= 0",
+         kind="relative", degree=dict(float=11, double=25),
+         pieces=[piece(lambda z: erfcx(half_line(z)) * flattened(half_line(z)) /
+                       (1 + 2 * half_line(z) / mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
+    dict(name="IERFCX", what="(1 - sqrt(pi) x erfcx(x)) (1 + sqrt(pi) x + 2 x^2) in z = (x - 2) / (x + 2), x >= 0",
+         kind="relative", degree=dict(float=11, double=27),
+         pieces=[piece(lambda z: ierfcx(half_line(z)) * flattened(half_line(z)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
+    dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then R / sqrt(w) in"
+         " z = 1 / sqrt(w) - 1/4, w <= 88 (float), 40 (double); last (double) in z = 1 / sqrt(w) - 1/10, w <= 744",
+         kind="relative", degree=dict(float=10, double=24),
+         pieces=[piece(lambda z: erfcinv_ratio(z + mpf("3.5")), *[(mpf("-3.5"), mpf("3.5"))] * 2),
+                 piece(erfcinv_tail(mpf("0.25")), tail_interval(7, 88, mpf("0.25")), tail_interval(7, 40, mpf("0.25"))),
+                 piece(erfcinv_tail(mpf("0.1")), None, tail_interval(40, 744, mpf("0.1")))]),
+    dict(name="KEPLER_SIN", what="sin(eta / 2) / k in z = k^2, eta - sin(eta) = k^3 / 6, eta <= pi", kind="relative",
+         degree=dict(float=9, double=24),
+         pieces=[piece(lambda z: mp.sin(kepler_half(z)) / mp.sqrt(z), *[(mpf("1e-30"), KEPLER_END)] * 2)]),
+    dict(name="KEPLER_COS", what="cos(eta / 2) in z = k^2, eta - sin(eta) = k^3 / 6, eta <= pi", kind="absolute",
+         degree=dict(float=9, double=24),
+         pieces=[piece(lambda z: mp.cos(kepler_half(z)), *[(mpf("1e-30"), KEPLER_END)] * 2, absolute)]),
+]
+
+
+def literal(x, real):
+    text = repr(float(x)) if real == "double" else f"{float(x):.9g}"
+    return text if any(c in text for c in ".en") else text + ".0"
+
+
+def print_polynomial(case, real):
+    pieces = [p for p in case["pieces"] if p["interval"][real]]
+    fits = [fit(p, case["degree"][real], real) for p in pieces]
+    unit = mpf(2) ** (-24 if real == "float" else -53)
+    error = ", ".join(mp.nstr(worst / unit, 2) for _, worst in fits)
+    rows = [", ".join(literal(c, real) for c in row) for row in zip(*[c for c, _ in fits])][::-1]
+    print(f"// {real}: error {error} * 2^-{24 if real == 'float' else 53}")
+    print(f"#define VNDF_IMPL_{case['name']}(FIRST, NEXT) \\")
+    lines = [f"    {'NEXT' if k else 'FIRST'}({row})" for k, row in enumerate(rows)]
+    print(" \\\n".join(lines), flush=True)
+
+
+HEADER = """\
+// The polynomials of math.h. Generated by tests/support/fit_polynomials.py; do not edit.
+//
+// Highest power first: FIRST(c) NEXT(c) ...; several numbers in a row belong to adjoining intervals.
+#ifndef VNDF_MATH_POLYNOMIALS_H
+#define VNDF_MATH_POLYNOMIALS_H
+// clang-format off"""
+
+
+def main():
+    print(HEADER)
+    for case in CASES:
+        print(f"\n// {case['what']}.\n// Errors are {case['kind']}.\n#if VNDF_DOUBLE")
+        print_polynomial(case, "double")
+        print("#else")
+        print_polynomial(case, "float")
+        print("#endif")
+    print("\n// clang-format on\n#endif")
+
+
+if __name__ == "__main__":
+    main()
