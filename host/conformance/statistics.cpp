@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -83,9 +85,19 @@ double sidak(double family_rate, std::size_t tests) {
 }
 
 double mean_tolerance(double deviation, double range, double n, double p) {
+    if (range <= 3 * deviation) {
+        const double z = -boost::math::quantile(boost::math::normal(), p / 2);
+        return std::max(6.5, z) * deviation / std::sqrt(n);
+    }
     const double log_term = std::log(2 / p) / n;
     const double linear = range * log_term / 3;
     return linear + std::sqrt(linear * linear + 2 * deviation * deviation * log_term);
+}
+
+double noncentral_chi_square_p(double statistic, std::size_t degrees, double noncentrality) {
+    if (degrees == 0) return 1;
+    const boost::math::non_central_chi_squared distribution(static_cast<double>(degrees), noncentrality);
+    return boost::math::cdf(boost::math::complement(distribution, statistic));
 }
 
 }  // namespace vndf::conformance

@@ -52,11 +52,14 @@ struct Sums {
     }
 };
 
-// Largest |mean of n samples - expectation| that a quantity with standard deviation `deviation`, never
-// farther than `range` from its expectation, exceeds with probability at most `p`: Bernstein's inequality,
-// which stays true where rare samples carry the variance (the tails of GGX at small alpha) and the normal
-// limit does not. For bounded well-behaved quantities it is the `z` standard errors of the normal limit
-// within a few percent.
+// Largest |mean of n samples - expectation| that chance explains, for a quantity with standard deviation
+// `deviation`, never farther than `range` from its expectation: 6.5 standard errors, or more if `p`
+// (two-sided) asks for more. Where the range exceeds three deviations, rare samples carry the variance (the
+// tails of GGX at small alpha), the normal limit does not hold, and Bernstein's inequality takes its place.
 double mean_tolerance(double deviation, double range, double n, double p);
+
+// P(statistic or more) if the cell probabilities p differ from the hypothesis q by n sum (p - q)^2 / q =
+// `noncentrality`: for a sampler whose bias is known.
+double noncentral_chi_square_p(double statistic, std::size_t degrees, double noncentrality);
 
 }  // namespace vndf::conformance

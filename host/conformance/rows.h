@@ -1,0 +1,55 @@
+// What an input row of a function means: its directions, its lobe, its condition.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "conformance/points.h"
+#include "reference/reference.h"
+#include "runtime/evaluator.h"
+
+namespace vndf::conformance {
+
+constexpr reference::Precision precision(runtime::Real real) {
+    return real == runtime::Real::f32 ? reference::Precision::f32 : reference::Precision::f64;
+}
+
+// Reads the named arguments out of rows of a function's inputs.
+class RowReader {
+  public:
+    explicit RowReader(const Function& function);
+
+    bool has_wo() const { return wo_ >= 0; }
+    bool has_n() const { return n_ >= 0; }
+    bool has_wm() const { return wm_ >= 0; }
+    bool has_wi() const { return wi_ >= 0; }
+
+    Direction wo(const double* row) const {
+        return read(row, wo_);
+    }  // (0, 0, 1) if there is none; also for w
+    Direction n(const double* row) const { return read(row, n_); }
+    Direction wm(const double* row) const { return read(row, wm_); }
+    Direction wi(const double* row) const { return read(row, wi_); }
+    std::array<double, 2> alpha(const double* row) const;
+
+    // The cosine between wo and the macroscopic normal; 1 without wo.
+    double cos_theta_o(const double* row) const;
+
+  private:
+    static Direction read(const double* row, int column);
+    int wo_, n_, wm_, wi_, alpha_, alpha_columns_;
+};
+
+double dot(const Direction& a, const Direction& b);
+double length(const Direction& a);
+
+// (tan(theta_m) / alpha)^2 per axis, summed, for the normal m of any length in the local frame: the exponent
+// of the Beckmann distribution.
+double beckmann_exponent(const Direction& m, std::array<double, 2> alpha);
+
+// The relative condition number of a function's result: sum over the inputs of |x_j df/dx_j| / |f|, by
+// differences of the reference over a rounding error of float either way. Infinite where the result is 0.
+double relative_condition(const Function& function, reference::Evaluation<double> evaluation,
+                          const double* row, reference::Precision precision);
+
+}  // namespace vndf::conformance

@@ -1,0 +1,30 @@
+// Pointwise checks of the samplers: each map against the reference map, the invariants of its result, and the
+// form that returns its density as well.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "conformance/errors.h"
+
+namespace vndf::conformance {
+
+struct PointwiseOptions {
+    Math math = Math::strict;
+    std::uint64_t seed = 1;
+    std::size_t random_points = std::size_t{1} << 16;
+    bool quick = false;  // every fourth of the hard points
+};
+
+// The findings of a sampler in its plain form.
+std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function& sampler,
+                                   const PointwiseOptions& options);
+
+// The findings of its _with_pdf form.
+std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Function& with_pdf,
+                                    const PointwiseOptions& options);
+
+// Hard and random points as a table.
+Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);
+
+}  // namespace vndf::conformance

@@ -1,0 +1,127 @@
+#include "conformance/values.h"
+
+#include <cmath>
+#include <limits>
+
+#include "conformance/parallel.h"
+#include "conformance/rows.h"
+
+namespace vndf::conformance {
+namespace {
+
+// In which unit a function's relative error is judged beside epsilon.
+enum class Unit { plain, exponent, condition };
+
+// Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function.
+// Geometry, the marginals of the slopes (differences, roots) and the functions about a world-space normal
+// (whose products n . w are rounded) are judged by their condition.
+Unit unit_of(const Function& function) {
+    if (function.kind == Kind::geometry || column(function, "cos_theta") >= 0 || column(function, "n_x") >= 0)
+        return Unit::condition;
+    return function.ndf == Ndf::beckmann ? Unit::exponent : Unit::plain;
+}
+
+// The exponent of the Beckmann function: of its normal or slope, or of the angle of its direction.
+double exponent(const Function& function, const RowReader& reader, const double* row) {
+    const auto alpha = reader.alpha(row);
+    if (const int slope = column(function, "slope_x"); slope >= 0)
+        return beckmann_exponent({row[slope], row[slope + 1], 1}, alpha);
+    if (reader.has_wm()) return beckmann_exponent(reader.wm(row), alpha);
+    const Direction wo = reader.wo(row), wi = reader.wi(row);
+    if (function.kind == Kind::density)
+        return beckmann_exponent({wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]}, alpha);
+    const auto angle = [&](const Direction& w) {  // cot^2 of the stretched angle
+        const double x = alpha[0] * w[0], y = alpha[1] * w[1];
+        return w[2] * w[2] / (x * x + y * y);
+    };
+    return reader.has_wi() ? std::max(angle(wo), angle(wi)) : angle(wo);
+}
+
+// How much wo . wm loses to cancellation, which literal arguments do not help.
+double cancellation(const RowReader& reader, const double* row) {
+    if (!reader.has_wo() || !reader.has_wm()) return 1;
+    const Direction o = reader.wo(row), m = reader.wm(row);
+    const double terms = std::abs(o[0] * m[0]) + std::abs(o[1] * m[1]) + std::abs(o[2] * m[2]);
+    return std::max(1.0, terms / std::abs(dot(o, m)));
+}
+
+struct Judge {
+    const Function& function;
+    const Table& table;
+    const std::vector<std::vector<double>>& results;
+    Real real;
+    Unit unit;
+    RowReader reader;
+};
+
+// The error of row i in its unit; NaN if the row is not judged.
+template <class R>
+double error_at(const Judge& j, std::size_t i) {
+    constexpr double skip = std::numeric_limits<double>::quiet_NaN();
+    const double unit = epsilon(j.real), smallest = j.real == Real::f32 ? 0x1p-126 : 0x1p-1022;
+    const double largest = j.real == Real::f32 ? 0x1.fffffep127 : 0x1.fffffffffffffp1023;
+    const std::vector<double> row = j.table.row(i);
+    const std::vector<R> in(row.begin(), row.end());
+    R exact[4];
+    reference::find_evaluation<R>(j.function.name)(in.data(), exact, precision(j.real));
+    R size = 0, difference = 0;
+    for (std::size_t k = 0; k < j.function.outputs.size(); ++k) {
+        const R delta = static_cast<R>(j.results[k][i]) - exact[k];
+        size += exact[k] * exact[k];
+        difference += delta * delta;
+    }
+    size = std::sqrt(size), difference = std::sqrt(difference);
+    // Near the sign of a rounded product and outside the range of the type there is no relative error.
+    const double lost = cancellation(j.reader, row.data());
+    if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
+    if (j.function.name == "vndf_ggx_pdf_wi_eto2023" &&
+        std::abs(reference::cap_margin(row.data(), precision(j.real))) <= 64)
+        return skip;  // at the edge of the cap, where rounding decides between the density and 0
+    if (size < smallest) return difference <= 2 * smallest ? 0 : std::numeric_limits<double>::infinity();
+    double allowance = lost;
+    if (j.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
+    if (j.unit == Unit::condition)
+        allowance = 1 + relative_condition(j.function, reference::find_evaluation<double>(j.function.name),
+                                           row.data(), precision(j.real));
+    if (!std::isfinite(allowance)) return skip;
+    const double error = static_cast<double>(difference / size) / (unit * allowance);
+    return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+}
+
+template <class R>
+Errors value_errors(const Judge& judge) {
+    std::vector<Errors> parts(thread_count());
+    parallel_for(judge.table.rows(), 256, [&](unsigned thread, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double error = error_at<R>(judge, i);
+            if (!std::isnan(error)) parts[thread].add(error, i);
+        }
+    });
+    for (std::size_t i = 1; i < parts.size(); ++i) parts[0].merge(parts[i]);
+    return parts[0];
+}
+
+}  // namespace
+
+std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
+                                  const PointwiseOptions& options) {
+    const Real real = evaluator.input_real();
+    const Table table = pointwise_table(function, real, options);
+    const auto results = evaluate(evaluator, function, table);
+    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    const Errors errors = real == Real::f32 ? value_errors<double>(judge) : value_errors<long double>(judge);
+    Errors bad;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        for (const auto& column : results)
+            bad.add(std::isfinite(column[i]) && (function.kind == Kind::geometry || column[i] >= 0) ? 0 : 1,
+                    i);
+
+    const char* const units[] = {"eps", "eps (1 + 2q)", "eps (1 + cond)"};
+    const double limit =
+        (real == Real::f32 ? function.bound : std::max(function.bound, 20.0)) * slack(options.math);
+    return {make_finding("pointwise, maximum", errors.max(), limit, units[static_cast<int>(judge.unit)],
+                         errors, function, table),
+            make_finding("finite and not negative", bad.max(), 0, "rows", bad, function, table)};
+}
+
+}  // namespace vndf::conformance

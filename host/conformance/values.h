@@ -1,0 +1,19 @@
+// Pointwise checks of everything that is no sampler: terms, densities, geometry; and the integral of
+// densities.
+#pragma once
+
+#include <vector>
+
+#include "conformance/samplers.h"
+
+namespace vndf::conformance {
+
+// `function` against the reference at hard and random points, its arguments taken literally.
+std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
+                                  const PointwiseOptions& options);
+
+// The integral of a density over the sphere, lobe by lobe, by quadrature of the evaluator's values: 1.
+std::vector<Finding> check_normalisation(runtime::Evaluator& evaluator, const Function& density,
+                                         const PointwiseOptions& options);
+
+}  // namespace vndf::conformance
