@@ -30,8 +30,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL 
 
 // The distribution of normals D.
 // Source: Walter et al. 2007, Equation 33 (m = wm), in the anisotropic vector form of Heitz, Understanding
-// the
-//     Masking-Shadowing Function, 2014.
+//     the Masking-Shadowing Function, 2014.
 // wm: unit normal, local frame.
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
@@ -73,8 +72,9 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // The projected area of the microsurface seen from w.
 // Source: Dupuy & Benyoub, Sampling Visible GGX Normals with Spherical Caps, 2023, Equation 4, stretched.
 // w: unit vector, local frame, anywhere on the sphere.
-// return: (w.z + t) / 2, in [0, max(1, alpha)]: per unit area of the macrosurface. Integral of D max(w . m,
-// 0). Accuracy: 8, also below the horizon.
+// return: (w.z + t) / 2, in [0, max(1, alpha)]: per unit area of the macrosurface; the
+//     integral of D max(w . m, 0).
+// Accuracy: 8, also below the horizon.
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return VNDF_R(0.5) *
            vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
@@ -265,8 +265,9 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
 
 // --- What the samplers share ---
 
-// Unstretches h, a normal of any length in the stretched frame, and normalises it; the density of the result
-// is weight |g|^3 / (pi alpha_x alpha_y), g = (alpha_x h.x, alpha_y h.y, h.z).
+// Unstretches h, a normal of any length in the stretched frame, and normalises it. The density of the result
+// is weight |g|^3 / (pi alpha_x alpha_y |h|^4), g = (alpha_x h.x, alpha_y h.y, h.z): dividing by the length
+// that h has, not by the one it should have, keeps the density accurate.
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL hy, VNDF_REAL hz,
                                                         VNDF_REAL alpha_x, VNDF_REAL alpha_y,
                                                         VNDF_REAL weight) {
@@ -279,7 +280,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     m.x = defined ? gx * rcp : VNDF_R(0.0);
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? hz * rcp : VNDF_R(1.0);
-    VNDF_REAL pdf = (VNDF_1_PI * weight * length / (alpha_x * alpha_y)) * length2;
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = length2 / h2;
+    VNDF_REAL pdf = VNDF_1_PI * (weight * length / (h2 * alpha_x * alpha_y)) * ratio;
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }

@@ -1,8 +1,8 @@
 // Isotropic GGX visible normals in world space, without a tangent frame; and their density.
 //
 // Source: Benyoub, VNDF Importance Sampling for an Isotropic Smith-GGX Distribution, 2024 (paper wi = wo),
-// with
-//     the reference axis sigma = sign(n.z) z in place of its `up`, so that it is an isometry for every n.
+//     with the reference axis sigma = sign(n.z) z in place of its `up`, so that it is an isometry for every
+//     n.
 #ifndef VNDF_GGX_BENYOUB2024_H
 #define VNDF_GGX_BENYOUB2024_H
 
@@ -56,9 +56,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
 //     The azimuth jumps where n.z changes sign.
 // return: unit vector wm with wm . n >= 0 to rounding, density vndf_ggx_pdf_wm_benyoub2024(wo, n, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
-// behind
-//     the surface 16; asserted by `clvndf check`. wo . n carries the rounding of both vectors: the condition
-//     number is about 1 / sqrt((wo . n)^2 + alpha^2).
+//     behind the surface 16; asserted by `clvndf check`. wo . n carries the rounding of both vectors: the
+//     condition number is about 1 / sqrt((wo . n)^2 + alpha^2).
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL alpha,
                                                   VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_benyoub2024(wo, n, alpha, u));

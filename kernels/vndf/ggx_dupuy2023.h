@@ -19,9 +19,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL hx = VNDF_FMA(sin_o, vndf_impl_circle_cos(u1), cap.tangent * v.x);
     VNDF_REAL hy = VNDF_FMA(sin_o, vndf_impl_circle_sin(u1), cap.tangent * v.y);
     VNDF_REAL hz = rest * cap.sqrt_p;
+    // (m . v) sqrt(P) = |h|^2 / 2.
     VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    return vndf_impl_ggx_unstretch(hx, hy, hz, v.alpha_x, v.alpha_y,
-                                   cap.sqrt_p > VNDF_R(0.0) ? VNDF_R(1.0) / (cap.sqrt_p * h2) : VNDF_R(0.0));
+    VNDF_REAL weight = cap.sqrt_p > VNDF_R(0.0) ? h2 / cap.sqrt_p : VNDF_R(0.0);
+    return vndf_impl_ggx_unstretch(hx, hy, hz, v.alpha_x, v.alpha_y, weight);
 }
 
 // A visible normal by the spherical cap.
@@ -31,8 +32,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
 // u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
-// behind
-//     the surface 16; asserted by `clvndf check`.
+//     behind the surface 16; asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_dupuy2023(wo, alpha, u));
 }

@@ -1,8 +1,7 @@
 // GGX reflections by the bounded spherical cap: fewer reflections below the horizon; and its density.
 //
 // Source: Eto & Tokuyoshi, Bounded VNDF Sampling for Smith-GGX Reflections, 2023, Listings 1 and 2, Equations
-// 5
-//     to 8 (i = wo, o = wi).
+//     5 to 8 (i = wo, o = wi).
 #ifndef VNDF_GGX_ETO2023_H
 #define VNDF_GGX_ETO2023_H
 
@@ -13,12 +12,11 @@ struct vndf_impl_bound {
     VNDF_REAL k, rest;
 };
 VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL sine,
-                                                   VNDF_REAL z) {
+                                                   VNDF_REAL z2, int front) {
     struct vndf_impl_bound bound;
     VNDF_REAL a = vndf_impl_min(vndf_impl_min(alpha_x, alpha_y), VNDF_R(1.0)), a2 = a * a;
-    VNDF_REAL s = VNDF_R(1.0) + sine, s2 = s * s, z2 = z * z;
+    VNDF_REAL s = VNDF_R(1.0) + sine, s2 = s * s;
     VNDF_REAL rcp = VNDF_R(1.0) / VNDF_FMA(a2, z2, s2);
-    int front = z > VNDF_R(0.0);
     bound.k = front ? (VNDF_R(1.0) - a) * (VNDF_R(1.0) + a) * s2 * rcp : VNDF_R(1.0);
     bound.rest = front ? a2 * (s2 + z2) * rcp : VNDF_R(0.0);
     return bound;
@@ -32,12 +30,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     struct vndf_impl_cap cap = vndf_impl_cap_of(v);
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
     // Only the direction of wo counts: its length is divided out where the listing takes it for 1.
-    VNDF_REAL tangent2 = VNDF_FMA(wo.x, wo.x, wo.y * wo.y);
-    VNDF_REAL rcp_wo = vndf_impl_rcp_sqrt(VNDF_FMA(wo.z, wo.z, tangent2));
-    struct vndf_impl_bound bound =
-        vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, VNDF_SQRT(tangent2) * rcp_wo, wo.z * rcp_wo);
-    VNDF_REAL z = cap.z;
     int front = v.z > VNDF_R(0.0);
+    VNDF_REAL tangent2 = VNDF_FMA(wo.x, wo.x, wo.y * wo.y), wo2 = VNDF_FMA(wo.z, wo.z, tangent2);
+    struct vndf_impl_bound bound =
+        vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, VNDF_SQRT(tangent2 / wo2), wo.z * wo.z / wo2, front);
+    VNDF_REAL z = cap.z;
     VNDF_REAL b = front ? VNDF_FMA(bound.k, z, VNDF_R(1.0)) : cap.p;
     VNDF_REAL complement = VNDF_FMA(bound.k, cap.q, bound.rest);
     VNDF_REAL sqrt_b = front ? VNDF_SQRT(b) : cap.sqrt_p, rcp_b = VNDF_R(1.0) / sqrt_b;
@@ -46,7 +43,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     VNDF_REAL hx = VNDF_FMA(sin_o, vndf_impl_circle_cos(u1), tangent * v.x);
     VNDF_REAL hy = VNDF_FMA(sin_o, vndf_impl_circle_sin(u1), tangent * v.y);
     VNDF_REAL hz = front ? VNDF_FMA(rest, sqrt_b, bound.rest * z * rcp_b) : rest * sqrt_b;
-    // Reflect about the normal g of any length: o keeps the length of wo whatever the error of g.
+    // Reflect about the normal g of any length: no rounding of g can tilt the mirror.
     VNDF_REAL gx = v.alpha_x * hx, gy = v.alpha_y * hy;
     VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
     VNDF_REAL cosine = VNDF_FMA(wo.x, gx, VNDF_FMA(wo.y, gy, wo.z * hz));
@@ -54,11 +51,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     cosine = cosine > VNDF_R(0.0) ? cosine : VNDF_R(0.0);
     int defined = g2 > VNDF_R(0.0);
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
-    o.x = VNDF_FMA(twice, gx, -wo.x) * rcp_wo;
-    o.y = VNDF_FMA(twice, gy, -wo.y) * rcp_wo;
-    o.z = VNDF_FMA(twice, hz, -wo.z) * rcp_wo;
+    VNDF_REAL ox = VNDF_FMA(twice, gx, -wo.x), oy = VNDF_FMA(twice, gy, -wo.y),
+              oz = VNDF_FMA(twice, hz, -wo.z);
+    VNDF_REAL rcp_o = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(ox, ox, VNDF_FMA(oy, oy, oz * oz)));
+    o.x = ox * rcp_o;
+    o.y = oy * rcp_o;
+    o.z = oz * rcp_o;
     VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = g2 / h2;
-    VNDF_REAL n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) * rcp_wo;
+    VNDF_REAL n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
     VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return o;
@@ -66,15 +66,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
 
 // A reflection of wo by the bounded cap: the visible normal and the mirror step in one.
 // wo: unit vector, local frame, anywhere on the sphere; only its direction matters. For wo.z <= 0 the plain
-// cap.
-//     At wo = -z, where nothing is visible: a unit vector with density 0.
+//     cap. At wo = -z, where nothing is visible: a unit vector with density 0.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8. For min(alpha) >= 1 the bound is valid but loose.
 // u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
-// behind
-//     the surface 16; asserted by `clvndf check`.
+//     behind the surface 16; asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_eto2023(wo, alpha, u));
 }
@@ -95,8 +93,8 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REA
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
     struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
-    struct vndf_impl_bound bound =
-        vndf_impl_ggx_bound(alpha_x, alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z);
+    struct vndf_impl_bound bound = vndf_impl_ggx_bound(
+        alpha_x, alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z * wo.z, wo.z > VNDF_R(0.0));
     // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
     VNDF_REAL limit = bound.rest * wo.z * h.scale;
     VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);

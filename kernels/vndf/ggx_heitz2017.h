@@ -1,8 +1,7 @@
 // GGX visible normals by half disks.
 //
 // Source: Heitz, A Simpler and Exact Sampling Routine for the GGX Distribution of Visible Normals, 2017 (V =
-// wo),
-//     with the conditional of P2 in parentheses, T2 = T1 x V and no threshold on V.z.
+//     wo), with the conditional of P2 in parentheses, T2 = T1 x V and no threshold on V.z.
 #ifndef VNDF_GGX_HEITZ2017_H
 #define VNDF_GGX_HEITZ2017_H
 
@@ -42,8 +41,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(VNDF_REAL3 wo, VNDF_REAL
 //     [2^-65, 1 - 2^-53]).
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2;
-// asserted
-//     by `clvndf check`.
+//     asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2017(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz2017(wo, alpha, u));
 }

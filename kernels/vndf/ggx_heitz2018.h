@@ -1,8 +1,7 @@
 // GGX visible normals by the cross section of the hemisphere: the most accurate exact map.
 //
 // Source: Heitz, Sampling the GGX Distribution of Visible Normals, 2018, as restated in Dupuy & Benyoub,
-// Sampling
-//     Visible GGX Normals with Spherical Caps, 2023, Listing 2. Paper wi = wo here; s = P / 2.
+//     Sampling Visible GGX Normals with Spherical Caps, 2023, Listing 2. Paper wi = wo here; s = P / 2.
 #ifndef VNDF_GGX_HEITZ2018_H
 #define VNDF_GGX_HEITZ2018_H
 
@@ -50,8 +49,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(VNDF_REAL3 wo, VNDF_REAL
 //     [2^-65, 1 - 2^-53]).
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
-// behind
-//     the surface 16; asserted by `clvndf check`.
+//     behind the surface 16; asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2018(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz2018(wo, alpha, u));
 }

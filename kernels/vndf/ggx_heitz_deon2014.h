@@ -98,8 +98,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VND
 // alpha, u: as above.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
-// behind
-//     the surface 16; asserted by `clvndf check`.
+//     behind the surface 16; asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_exact(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(wo, alpha, u));
 }
