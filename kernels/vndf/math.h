@@ -129,8 +129,8 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
     VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
     VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER);
-    VNDF_INT half = exponent >> 1;
-    VNDF_REAL result = scale * vndf_impl_exp2i(half) * power * vndf_impl_exp2i(exponent - half);
+    VNDF_INT first = exponent >> 1;
+    VNDF_REAL result = scale * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(exponent - first);
 #else
     VNDF_REAL root = VNDF_IMPL_FAST(exp)(VNDF_R(0.5) * bounded);
     VNDF_REAL result = scale * root * VNDF_FMA(root, low, root);
