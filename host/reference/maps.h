@@ -58,7 +58,7 @@ Sample<R> ggx_unstretch(const View<R>& v, const StretchedNormal<R>& m) {
 template <class R>
 StretchedNormal<R> ggx_normal(const R& t, const R& root, const Beta<R>& b) {
     using std::cos, std::sin;
-    return {root * cos(b.beta), t, root * sin(b.beta), root * sin(b.rest)};
+    return {root * cos(b.beta), t, root * sin(b.beta), root * b.facing};
 }
 
 // wo = -z: no normal faces it but those of the horizon, which have no area.
@@ -76,7 +76,7 @@ template <class R>
 Sample<R> ggx_heitz_deon2014_exact(const Arguments<R>& in) {
     const View<R> v = view(in);
     if (nothing_visible(v)) return ggx_horizontal(v);
-    const Beta<R> b = ggx_beta<R>(in.u1, in.v1, v.nu);
+    const Beta<R> b = ggx_beta<R>(in.u1, in.v1, v.theta, v.nu);
     const Semicircle<R> s = semicircle<R>(in.v2, in.u2);
     return ggx_unstretch(v, ggx_normal(s.t, s.root, b));
 }
@@ -106,7 +106,7 @@ Sample<R> ggx_heitz_deon2014(const Arguments<R>& in) {
     using std::sqrt;
     const View<R> v = view(in);
     if (v.up < 0) return undefined<R>({R(0), R(0), R(1)});
-    const Beta<R> b = ggx_beta<R>(in.u1, in.v1, v.nu);
+    const Beta<R> b = ggx_beta<R>(in.u1, in.v1, v.theta, v.nu);
     const bool positive = in.u2 > Real<R>(0.5);
     const R less = positive ? in.v2 : in.u2;  // 1 - U = 2 less
     R z, dz;
@@ -120,7 +120,7 @@ Sample<R> ggx_heitz_deon2014(const Arguments<R>& in) {
 // A point (t, s) of the plane across wo, t along p, with the part F of the slice at t below it.
 template <class R>
 Sample<R> ggx_from_slice(const View<R>& v, const R& t, const R& root, const R& f, const R& rest) {
-    return ggx_unstretch(v, ggx_normal(t, root, ggx_beta<R>(f, rest, v.nu)));
+    return ggx_unstretch(v, ggx_normal(t, root, ggx_beta<R>(f, rest, v.theta, v.nu)));
 }
 
 // 1 - |s| / root of a point (t, s) of the unit disk with root^2 = 1 - t^2 and rest = 1 - t^2 - s^2.
@@ -163,18 +163,19 @@ Sample<R> ggx_heitz2017(const Arguments<R>& in) {
     const R t = -radius * cos(angle), s = radius * sin(angle), root = sqrt(in.v1 + s * s);
     const R less = slice_rest<R>(s, root, in.v1);
     const R above = upper ? R(less / both) : R(1 - v.cos_theta * less / both);
-    const R below = upper ? R(1 - less / both) : R(v.cos_theta * less / both);
+    const R below = (upper ? R(v.cos_theta + s / root) : R(v.cos_theta * less)) / both;
     return ggx_from_slice<R>(v, t, root, below, above);
 }
 
-// The cap of stretched reflections: directions within 2 half of z; gap = nu / 2 - half.
+// The cap of stretched reflections: directions within 2 half of z; co_half = pi / 2 - half, gap = nu / 2 -
+// half.
 template <class R>
 struct Cap {
-    R half, gap;
+    R half, co_half, gap;
 };
 template <class R>
 Cap<R> whole_cap(const View<R>& v) {
-    return {v.nu / 2, R(0)};
+    return {v.nu / 2, v.theta / 2, R(0)};
 }
 
 // The bound of Eto & Tokuyoshi: only reflections with o_z > -k cos(theta), where k = (1 - a^2) s^2 /
@@ -197,24 +198,29 @@ Cap<R> bounded_cap(const View<R>& v, const Vec3<R>& wo) {
     // tan^2(half) = (1 + k c) / (1 - k c); the directions at height -c and -k c differ by the angle 2 gap.
     const R one_minus_c = 2 * squared(R(sin(v.theta / 2)));
     const R up = 1 + b.k * v.cos_theta, down = b.gap + b.k * one_minus_c;
-    const R half = atan2(R(sqrt(up)), R(sqrt(down)));
-    // cos(theta) - k cos(theta) = 2 sin((kappa + theta) / 2) sin(gap), kappa = pi - 2 half.
-    const R sin_gap = b.gap * v.cos_theta / (2 * sin(pi<R>() / 2 - half + v.theta / 2));
-    return {half, atan2(sin_gap, R(sqrt(1 - sin_gap * sin_gap)))};
+    const R half = atan2(R(sqrt(up)), R(sqrt(down))), co_half = atan2(R(sqrt(down)), R(sqrt(up)));
+    // cos(theta) - k cos(theta) = 2 sin(co_half + theta / 2) sin(gap)
+    const R sin_gap = b.gap * v.cos_theta / (2 * sin(co_half + v.theta / 2));
+    return {half, co_half, atan2(sin_gap, R(sqrt(1 - sin_gap * sin_gap)))};
 }
 
-// The half vector of the stretched wo and a direction at azimuth phi, uniform on the cap: u2 is the part of
-// the cap's area nearer to z. By the sums of sines and cosines nothing cancels but where the two azimuths are
-// opposite.
+// The half vector of the stretched wo and a direction uniform on the cap: `turn` is its azimuth less pi, u2 the
+// part of the cap's area nearer to z. The direction's part across z is split along e, and the sums are taken as
+// products of sines, so that nothing cancels where the azimuths are opposite and the polar angles equal.
 template <class R>
-StretchedNormal<R> half_vector(const View<R>& v, const Cap<R>& cap, const R& phi, const R& u2, const R& v2) {
-    using std::cos, std::sin;
-    const CapAngle<R> polar = cap_angle<R>(u2, v2, cap.half);
-    const R across = sin(2 * polar.x);
-    const R ox = across * cos(phi), oy = across * sin(phi);
-    const R he = ox * v.ex + oy * v.ey + v.sin_theta, hp = oy * v.ex - ox * v.ey;
-    // cos(2 x) + cos(theta), theta = pi - 2 (half + gap).
-    const R hz = 2 * sin(polar.rest + cap.gap) * sin(polar.x + cap.half + cap.gap);
+StretchedNormal<R> half_vector(const View<R>& v, const Cap<R>& cap, const R& turn, const R& u2, const R& v2) {
+    using std::atan2, std::cos, std::sin;
+    const CapAngle<R> polar = cap_angle<R>(u2, v2, cap.half, cap.co_half);
+    // The polar angles 2 x and theta = pi - nu; their sum is pi - 2 left.
+    const R co_x = polar.rest + cap.co_half, left = polar.rest + cap.gap;
+    const bool steep = polar.x < co_x;
+    const R across = sin(2 * (steep ? polar.x : co_x));
+    const R between = steep ? R(polar.x + v.nu / 2) : R(co_x + v.theta / 2);
+    const R cos_between = steep ? R(cos(between)) : R(-cos(between));
+    // sin(theta) - across cos(w) and cos(theta) + cos(2 x)
+    const R w = turn - atan2(v.ey, v.ex);
+    const R he = 2 * across * squared(R(sin(w / 2))) + 2 * cos_between * sin(left);
+    const R hp = -across * sin(w), hz = 2 * sin(left) * sin(between);
     const R length = hypotenuse(hypotenuse(he, hp), hz);
     return {he / length, hp / length, hz / length, length / 2};
 }
@@ -224,7 +230,8 @@ template <class R>
 Sample<R> ggx_dupuy2023(const Arguments<R>& in) {
     const View<R> v = view(in);
     if (nothing_visible(v)) return ggx_horizontal(v);
-    return ggx_unstretch(v, half_vector<R>(v, whole_cap(v), 2 * pi<R>() * in.u1, in.u2, in.v2));
+    return ggx_unstretch(v,
+                         half_vector<R>(v, whole_cap(v), 2 * pi<R>() * (in.u1 - Real<R>(0.5)), in.u2, in.v2));
 }
 
 template <class R>
@@ -242,7 +249,7 @@ Sample<R> ggx_eto2023(const Arguments<R>& in) {
     const View<R> v = view(in);
     if (nothing_visible(v)) return undefined<R>(reflect<R>(in.wo, {v.ex, v.ey, R(0)}));
     const Cap<R> cap = v.up > 0 ? bounded_cap(v, in.wo) : whole_cap(v);
-    const StretchedNormal<R> m = half_vector<R>(v, cap, 2 * pi<R>() * in.u1, in.u2, in.v2);
+    const StretchedNormal<R> m = half_vector<R>(v, cap, 2 * pi<R>() * (in.u1 - Real<R>(0.5)), in.u2, in.v2);
     const Vec3<R> wm = ggx_unstretch(v, m).direction;
     const R gx = m.e * v.ex - m.p * v.ey, gy = m.e * v.ey + m.p * v.ex;
     const R length2 = squared(R(v.alpha_x * gx)) + squared(R(v.alpha_y * gy)) + squared(m.z);
@@ -283,8 +290,8 @@ Sample<R> ggx_benyoub2024(const Arguments<R>& in) {
     View<R> v = view(to_local(f, in.wo), in.alpha_x, in.alpha_x);
     rotate(v, in.rotation);
     if (nothing_visible(v)) return undefined<R>(to_world<R>(f, {v.ex, v.ey, R(0)}));
-    const R phi = 2 * pi<R>() * in.u1 - pi<R>();
-    Sample<R> sample = ggx_unstretch(v, half_vector<R>(v, whole_cap(v), phi, in.u2, in.v2));
+    const R turn = 2 * pi<R>() * (in.u1 < in.v1 ? in.u1 : R(-in.v1));
+    Sample<R> sample = ggx_unstretch(v, half_vector<R>(v, whole_cap(v), turn, in.u2, in.v2));
     sample.direction = to_world(f, sample.direction);
     return sample;
 }

@@ -93,14 +93,15 @@ void rotate(View<R>& v, const R& angle) {
 }
 
 // An angle x in [0, half] with sin^2(x) = u sin^2(half), 0 < half <= pi / 2, and what is left of half; v = 1
-// - u. It is the distribution function of beta (u = 1 - F, x = (nu - beta) / 2, half = nu / 2) and that of
-// the polar angle 2 x of directions uniform on a cap of opening 2 half.
+// - u and co_half = pi / 2 - half are given, so that neither loses its relative accuracy. It is the
+// distribution function of beta (u = 1 - F, x = (nu - beta) / 2, half = nu / 2) and that of the polar angle 2
+// x of directions uniform on a cap of opening 2 half.
 template <class R>
 struct CapAngle {
     R x, rest;
 };
 template <class R>
-CapAngle<R> cap_angle(const R& u, const R& v, const R& half) {
+CapAngle<R> cap_angle(const R& u, const R& v, const R& half, const R& co_half) {
     using std::sin, std::sqrt;
     using T = Real<R>;
     const T h = value_of(half), root_u = std::sqrt(value_of(u)), root_v = std::sqrt(value_of(v));
@@ -111,39 +112,48 @@ CapAngle<R> cap_angle(const R& u, const R& v, const R& half) {
         const R x = solve<R>(f, df, root_u * std::sin(h), root_u * h, u, half);
         return {x, half - x};
     }
-    // 1 - sin^2(x) / sin^2(half) in y = half - x.
-    const auto f = [](auto y, auto v, auto half) {
-        return sin(decltype(half)(y)) * sin(decltype(half)(2 * half - y)) /
-                   squared(decltype(half)(sin(half))) -
-               v;
+    // 1 - sin^2(x) / sin^2(half) = sin(y) sin(2 half - y) / sin^2(half) in y = half - x.
+    const auto sine = [](auto y, auto half, auto co_half) {  // of 2 half - y
+        using S = decltype(half);
+        return sin(half < co_half ? S(2 * half - y) : S(2 * co_half + y));
     };
-    const auto df = [](T y, T, T half) { return std::sin(2 * (half - y)) / squared(std::sin(half)); };
+    const auto f = [sine](auto y, auto v, auto half, auto co_half) {
+        using S = decltype(half);
+        return sin(S(y)) * sine(S(y), half, co_half) / squared(S(sin(half))) - v;
+    };
+    const auto df = [sine](T y, T, T half, T co_half) {
+        return sine(2 * y, half, co_half) / squared(std::sin(half));
+    };
     const T least = h * value_of(v) / (1 + std::sqrt(std::max(T(0), 1 - value_of(v))));
-    const R y = solve<R>(f, df, least, h * root_v, v, half);
+    const R y = solve<R>(f, df, least, h * root_v, v, half, co_half);
     return {half - y, y};
 }
 
-// beta with F(beta) = u, given v = 1 - u, and nu - beta.
+// beta with F(beta) = u, given v = 1 - u, and sin(nu - beta).
 template <class R>
 struct Beta {
-    R beta, rest;
+    R beta, facing;
 };
 template <class R>
-Beta<R> ggx_beta(const R& u, const R& v, const R& nu) {
-    const CapAngle<R> half = cap_angle<R>(v, u, nu / 2);
-    return {2 * half.rest, 2 * half.x};
+Beta<R> ggx_beta(const R& u, const R& v, const R& theta, const R& nu) {
+    using std::sin;
+    const CapAngle<R> half = cap_angle<R>(v, u, nu / 2, theta / 2);
+    const R beta = 2 * half.rest, rest = 2 * half.x;
+    return {beta, sin(beta < rest && theta < nu ? R(theta + beta) : rest)};
 }
 
 // F(beta) and its density.
 template <class R>
-R ggx_beta_cdf(const R& beta, const R& nu) {
+R ggx_beta_cdf(const R& beta, const R& theta, const R& nu) {
     using std::sin;
-    return beta < nu ? R(sin(beta / 2) * sin(nu - beta / 2) / squared(R(sin(nu / 2)))) : R(1);
+    const R other = theta < nu ? R(theta + beta / 2) : R(nu - beta / 2);
+    return beta < nu ? R(sin(beta / 2) * sin(other) / squared(R(sin(nu / 2)))) : R(1);
 }
 template <class R>
-R ggx_beta_pdf(const R& beta, const R& nu) {
+R ggx_beta_pdf(const R& beta, const R& theta, const R& nu) {
     using std::sin;
-    return beta < nu ? R(sin(nu - beta) / (2 * squared(R(sin(nu / 2))))) : R(0);
+    const R rest = nu - beta;
+    return rest > 0 ? R(sin(theta < beta ? rest : R(theta + beta)) / (2 * squared(R(sin(nu / 2))))) : R(0);
 }
 
 // t, distributed as a semicircle, with the mass u below it; root = sqrt(1 - t^2). With t = cos(tau) the mass

@@ -158,20 +158,20 @@ R ggx_slope_pdf(const R& c, const R& x) {
     const View<R> v = view_of_cosine(c);
     if (nothing_visible(v)) return R(0);
     // x = -cot(beta): dbeta / dx = sin^2(beta)
-    return ggx_beta_pdf<R>(atan2(R(1), R(-x)), v.nu) / (1 + x * x);
+    return ggx_beta_pdf<R>(atan2(R(1), R(-x)), v.theta, v.nu) / (1 + x * x);
 }
 template <class R>
 R ggx_slope_cdf(const R& c, const R& x) {
     using std::atan2;
     const View<R> v = view_of_cosine(c);
-    return nothing_visible(v) ? R(1) : ggx_beta_cdf<R>(atan2(R(1), R(-x)), v.nu);
+    return nothing_visible(v) ? R(1) : ggx_beta_cdf<R>(atan2(R(1), R(-x)), v.theta, v.nu);
 }
 template <class R>
 R ggx_slope_cdf_inverse(const R& c, const R& u, const R& rest) {
     using std::cos, std::sin;
     const View<R> v = view_of_cosine(c);
     if (nothing_visible(v)) return R(-std::numeric_limits<Real<R>>::infinity());
-    const R beta = ggx_beta<R>(u, rest, v.nu).beta;
+    const R beta = ggx_beta<R>(u, rest, v.theta, v.nu).beta;
     return -cos(beta) / sin(beta);
 }
 template <class R>
