@@ -18,6 +18,7 @@ struct ProgramOptions {
     std::string build_options;           // appended, e.g. "-cl-fast-relaxed-math"
     std::vector<Substitution> substitutions;
     int mutant = 0;  // the substitution switched on; 0: none
+    std::string root = "kernels/batch/batch.cl";  // the embedded source with the entry points
 };
 
 class DeviceEvaluator final : public Evaluator {
@@ -39,6 +40,10 @@ class DeviceEvaluator final : public Evaluator {
 
     const Device& device() const { return device_; }
     const std::string& build_options() const { return build_options_; }
+
+    // For callers with launches of their own.
+    const cl::Context& context() const { return context_; }
+    const cl::Program& program() const { return program_; }
 
   private:
     cl::Kernel& kernel(const std::string& name);
