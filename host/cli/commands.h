@@ -32,5 +32,6 @@ struct Target {
 void add_devices(CLI::App& app, Common& common);
 void add_list(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
+void add_check(CLI::App& app, Common& common);
 
 }  // namespace vndf::cli

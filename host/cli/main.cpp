@@ -1,8 +1,10 @@
 // clvndf: the command line.
-#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,23 +43,51 @@ runtime::Device Target::choose(const Common& common) const {
 
 namespace {
 
+// What CLI11 found wrong, in one line; with the commands there are if it was the command.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+    if (const auto chosen = app.get_subcommands(); !chosen.empty()) {
+        return fmt::format("{} (see clvndf {} --help)", error.what(), chosen.front()->get_name());
+    }
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        commands.push_back(command->get_name());
+    }
+    const auto rest = app.remaining();
+    const std::string found =
+        rest.empty() ? error.what() : fmt::format("unknown command or option '{}'", rest.front());
+    return fmt::format("{}; the commands are {} (see clvndf --help)", found, fmt::join(commands, ", "));
+}
+
+// Takes the seed from its text; CLI11 would let -1 wrap around.
+void add_seed(CLI::App& app, Common& common) {
+    const auto parse = [&common](const std::string& text) {
+        const char* const last = text.data() + text.size();
+        const auto [end, error] = std::from_chars(text.data(), last, common.seed);
+        if (error == std::errc() && end == last) return;
+        throw InputError(fmt::format("--seed: '{}' is no seed; 0 to {} are allowed", text,
+                                     std::numeric_limits<std::uint64_t>::max()));
+    };
+    app.add_option_function<std::string>("--seed", parse, "seed of every random number")->default_str("1");
+}
+
 int run(int argc, char** argv) {
     CLI::App app("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals");
     app.set_version_flag("--version", "clvndf " CLVNDF_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
     Common common;
-    app.add_option("--seed", common.seed, "seed of every random number")->capture_default_str();
+    add_seed(app, common);
     app.add_flag("--quiet", common.quiet, "no progress and no remarks on stderr");
     add_devices(app, common);
     add_list(app, common);
     add_eval(app, common);
+    add_check(app, common);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
         return app.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        throw InputError(fmt::format("{} (see clvndf --help)", error.what()));
+        throw InputError(explain(app, error));
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw InputError("standard output: cannot write");
     return common.exit_status;

@@ -17,20 +17,33 @@
 namespace vndf::cli {
 namespace {
 
-// The temporary file of this process, for the signal handler; empty: none.
-char temporary_path[4096];
+// The temporary files of this process, for the signal handler; an empty slot starts with 0.
+constexpr std::size_t slots = 8, longest_path = 4096;
+char temporaries[slots][longest_path];
 
-extern "C" void remove_temporary_and_die(int signal_number) {
-    if (temporary_path[0] != '\0') unlink(temporary_path);
+extern "C" void remove_temporaries_and_die(int signal_number) {
+    for (const char* path : temporaries) {
+        if (path[0] != '\0') unlink(path);
+    }
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
 }
 
 void guard_against_signals(const std::string& path) {
-    std::strncpy(temporary_path, path.c_str(), sizeof temporary_path - 1);
+    for (char* slot : temporaries) {
+        if (slot[0] != '\0' || path.size() >= longest_path) continue;
+        std::strcpy(slot, path.c_str());
+        break;
+    }
     for (int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
         // What the parent had ignored (nohup) stays ignored.
-        if (std::signal(number, remove_temporary_and_die) == SIG_IGN) std::signal(number, SIG_IGN);
+        if (std::signal(number, remove_temporaries_and_die) == SIG_IGN) std::signal(number, SIG_IGN);
+    }
+}
+
+void release_from_signals(const std::string& path) {
+    for (char* slot : temporaries) {
+        if (path == slot) slot[0] = '\0';
     }
 }
 
@@ -73,7 +86,7 @@ OutputFile::~OutputFile() {
     if (descriptor_ > STDERR_FILENO) close(descriptor_);
     if (!temporary_.empty()) {
         unlink(temporary_.c_str());
-        temporary_path[0] = '\0';
+        release_from_signals(temporary_);
     }
 }
 
@@ -96,7 +109,7 @@ void OutputFile::commit() {
     const int descriptor = std::exchange(descriptor_, -1);
     if (close(descriptor) != 0) fail(errno);
     if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-    temporary_path[0] = '\0';
+    release_from_signals(temporary_);
     temporary_.clear();
 }
 

@@ -1,0 +1,87 @@
+#include "registry.h"
+
+#include <map>
+#include <set>
+
+#include "support/catch.h"
+
+namespace {
+
+using namespace vndf;
+using Names = std::vector<std::string>;
+
+TEST_CASE("a function takes the scalars that its arguments stand for, in their order") {
+    const std::map<std::string, Names> scalars = {
+        {"WO_ALPHA_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
+        {"WO_N_ALPHA1_U", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "alpha", "u1", "u2"}},
+        {"ALPHA_U", {"alpha_x", "alpha_y", "u1", "u2"}},
+        {"WM_ALPHA", {"wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
+        {"W_ALPHA", {"w_x", "w_y", "w_z", "alpha_x", "alpha_y"}},
+        {"SLOPE_ALPHA", {"slope_x", "slope_y", "alpha_x", "alpha_y"}},
+        {"WO_WI_ALPHA", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
+        {"WO_WM_ALPHA", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
+        {"WO_N_WM_ALPHA1", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "wm_x", "wm_y", "wm_z", "alpha"}},
+        {"COS_THETA_X", {"cos_theta", "x"}},
+        {"COS_THETA_U1", {"cos_theta", "u1"}},
+        {"WO_WM", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z"}},
+        {"WO_WM_ETA", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "eta"}},
+        {"WO_WI_ETA", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "eta"}},
+    };
+    std::set<std::string> used;
+    for (const Function& f : functions()) {
+        CAPTURE(f.name);
+        REQUIRE(scalars.count(f.arguments));
+        CHECK(f.inputs == scalars.at(f.arguments));
+        used.insert(f.arguments);
+    }
+    CHECK(used.size() == scalars.size());
+}
+
+TEST_CASE("a function returns a direction or a value, and with_pdf a density behind it") {
+    for (const Function& f : functions()) {
+        CAPTURE(f.name);
+        Names expected = {"value"};
+        if (f.result == "WM") expected = {"wm_x", "wm_y", "wm_z"};
+        if (f.result == "WI") expected = {"wi_x", "wi_y", "wi_z"};
+        if (f.with_pdf) expected.push_back("pdf");
+        CHECK(f.outputs == expected);
+        CHECK(f.name.ends_with("_with_pdf") == f.with_pdf);
+    }
+}
+
+TEST_CASE("every sampler is followed by its with_pdf form, and its density is a registered function") {
+    std::size_t samplers = 0;
+    for (std::size_t i = 0; i < functions().size(); ++i) {
+        const Function& f = functions()[i];
+        if (f.kind != Kind::sampler || f.with_pdf) continue;
+        CAPTURE(f.name);
+        REQUIRE(i + 1 < functions().size());
+        CHECK(functions()[i + 1].name == f.name + "_with_pdf");
+        CHECK(functions()[i + 1].with_pdf);
+        const Function* density = find_function(f.density);
+        REQUIRE(density != nullptr);
+        CHECK(density->kind == Kind::density);
+        CHECK(f.p99_front > 0);
+        CHECK(f.p99_back >= f.p99_front);
+        ++samplers;
+    }
+    CHECK(samplers == 11);
+    CHECK(functions().size() == 2 * samplers + 32);
+}
+
+TEST_CASE("a function is found by its exact name alone") {
+    for (const Function& f : functions()) CHECK(find_function(f.name) == &f);
+    CHECK(find_function("vndf_ggx_sample_wm_dupuy") == nullptr);
+    CHECK(find_function("VNDF_GGX_LAMBDA") == nullptr);
+    CHECK(find_function("") == nullptr);
+}
+
+TEST_CASE("the nearest names are those that a slip of the keyboard leads to") {
+    CHECK(nearest_names("vndf_ggx_lamda").front() == "vndf_ggx_lambda");
+    CHECK(nearest_names("vndf_beckman_g1").front() == "vndf_beckmann_g1");
+    CHECK(nearest_names("ggx_sample_wm_dupuy2023").front() == "vndf_ggx_sample_wm_dupuy2023");
+    CHECK(nearest_names("vndf_reflect", 2) == Names{"vndf_reflect", "vndf_refract"});
+    CHECK(nearest_names("x", 1000).size() == functions().size());
+}
+
+}  // namespace
