@@ -6,10 +6,11 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "host/reference/reference.h"
+#include "reference/reference.h"
 
 namespace vndf::reference {
 
@@ -76,19 +77,38 @@ class Distribution {
     double pivot_rounding() const;
 
   private:
-    enum class Shape { ggx, beckmann };
-    Shape shape_;
-    bool reflected_;            // directions are wi
-    double alpha_x_, alpha_y_;  //
-    Vec3d wo_;                  // unit, in the local frame
-    Vec3d t1_, t2_, n_;         // local frame (identity but for benyoub2024)
-    double ex_, ey_;            // azimuth of the stretched wo
-    double length_;             // of the stretched wo
-    double sin_, cos_;          // of its polar angle
-    double tan_half_;           // tan(theta / 2)
-    double cot_;                // cos / sin, capped
-    double bound_;              // k: reflected directions are bounded by o_z > -k cos; 1 for the whole cap
-    double bound_gap_;          // 1 - k
+    enum class Kind { ggx, bounded, beckmann };  // bounded: GGX reflections from the front, on their own cap
+    struct Range;
+    struct Node;
+
+    Vec3d half(double x, double y, double z) const;
+    double normaliser() const;
+    Range range(double phi) const;
+    void cumulative(double phi, const std::vector<double>& tan_theta, double* mass) const;
+    void add(const Node& node, QuadratureRule& rule) const;
+    void add_polar_nodes(QuadratureRule& rule, bool fine) const;
+    void add_slope_nodes(QuadratureRule& rule, bool fine) const;
+    std::vector<double> azimuth_breaks() const;
+    template <class T, Kind kind>
+    void pivots_of(std::size_t n, const T* x, const T* y, const T* z, double* p1, double* p2) const;
+
+    std::string sampler_;
+    std::vector<double> in_;
+    Precision precision_;
+    Kind kind_;
+    bool reflected_;              // directions are wi
+    bool world_;                  // directions are not in the local frame
+    std::array<Vec3d, 3> frame_;  // rows t1, t2, n: world to local
+    Vec3d wo_;                    // unit, local
+    double alpha_x_, alpha_y_;
+    double ex_, ey_;     // azimuth of the stretched wo (stretched.h)
+    double length_;      // of the stretched wo
+    double sin_, cos_;   // of its polar angle
+    double sigma_;       // (1 + cos) / 2
+    double tan_half_;    // tan(theta / 2)
+    double a_, weight_;  // Beckmann: cot(theta) and N(a)
+    double k_, gap_;     // bounded: o_z > -k cos, 1 - k
+    double cap_;         // bounded: (1 + k cos) / 2
 };
 
 }  // namespace vndf::reference

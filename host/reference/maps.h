@@ -2,8 +2,8 @@
 // roles that its paper gives to u1 and u2. The direction comes with its density.
 #pragma once
 
-#include "host/reference/reference.h"
-#include "host/reference/stretched.h"
+#include "reference/reference.h"
+#include "reference/stretched.h"
 
 namespace vndf::reference {
 

@@ -1,5 +1,5 @@
 // The names of the registry, bound to the reference's templates for double and long double.
-#include "host/reference/reference.h"
+#include "reference/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/reference/terms.h"
+#include "reference/terms.h"
 
 namespace vndf::reference {
 namespace {

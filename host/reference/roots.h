@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "host/reference/dual.h"
+#include "reference/dual.h"
 
 namespace vndf::reference {
 

@@ -18,7 +18,7 @@
 // the slope y across is an independent Gaussian.
 #pragma once
 
-#include "host/reference/roots.h"
+#include "reference/roots.h"
 
 namespace vndf::reference {
 

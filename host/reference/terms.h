@@ -1,7 +1,7 @@
 // The distributions' terms and densities, of the vectors as given (not normalised).
 #pragma once
 
-#include "host/reference/maps.h"
+#include "reference/maps.h"
 
 namespace vndf::reference {
 
