@@ -74,6 +74,17 @@ VNDF_FN VNDF_REAL vndf_impl_sin_from_cos(VNDF_REAL c) {
     return VNDF_SQRT(square > VNDF_R(0.0) ? square : VNDF_R(0.0));
 }
 
+// cos_theta - x sin_theta of the angle between the view direction and the slope x: the
+// sine carries its rounding error along, since the difference vanishes at the end of the visible range.
+VNDF_FN VNDF_REAL vndf_impl_visible_cosine(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL square = cos_theta * cos_theta, rest = VNDF_R(1.0) - square;
+    VNDF_REAL rest_error = ((VNDF_R(1.0) - rest) - square) - VNDF_FMA(cos_theta, cos_theta, -square);
+    VNDF_REAL sine = VNDF_SQRT(rest > VNDF_R(0.0) ? rest : VNDF_R(0.0));
+    VNDF_REAL sine_error =
+        sine > VNDF_R(0.0) ? VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error) / sine : VNDF_R(0.0);
+    return VNDF_FMA(-x, sine, cos_theta) - x * sine_error;
+}
+
 // The power of two that brings |x| in (0, 4] near 1, exactly: no square below under- or overflows.
 VNDF_FN VNDF_REAL vndf_impl_scale(VNDF_REAL x) {
 #if VNDF_DOUBLE

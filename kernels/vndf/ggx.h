@@ -186,17 +186,6 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 
 // --- Visible slopes at alpha = 1, in the plane of incidence ---
 
-// cos_theta - x sin_theta of the angle between the view direction and the slope x, over sqrt(1 + x^2): the
-// sine carries its rounding error along, since the difference vanishes at the end of the visible range.
-VNDF_FN VNDF_REAL vndf_impl_visible_cosine(VNDF_REAL cos_theta, VNDF_REAL x) {
-    VNDF_REAL square = cos_theta * cos_theta, rest = VNDF_R(1.0) - square;
-    VNDF_REAL rest_error = ((VNDF_R(1.0) - rest) - square) - VNDF_FMA(cos_theta, cos_theta, -square);
-    VNDF_REAL sine = VNDF_SQRT(rest > VNDF_R(0.0) ? rest : VNDF_R(0.0));
-    VNDF_REAL sine_error =
-        sine > VNDF_R(0.0) ? VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error) / sine : VNDF_R(0.0);
-    return VNDF_FMA(-x, sine, cos_theta) - x * sine_error;
-}
-
 // The marginal density of visible slopes in the plane of incidence, alpha = 1.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 4.2.
 // cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
