@@ -15,7 +15,7 @@ constexpr double cdf_error = 3.8e-4;                        // for U < 0.995
 constexpr double cdf_error_at_end = 5.4e-4;                 // G never reaches 1
 constexpr double cut = 7.256;                               // the largest z
 constexpr double rms_angle = 1.0e-3;                        // of atan z, for U < 0.999
-constexpr double density_low = 0.06, density_high = 0.023;  // relative, for U < 0.995
+constexpr double density_low = 0.06, density_high = 0.023;  // relative, for U < 0.99 (u2 < 0.995)
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -89,7 +89,7 @@ std::vector<Finding> measure_bias(runtime::Evaluator& evaluator, const Function&
             const double angle = std::atan(curve.z[i]) - exact_angle(U);
             squares += angle * angle, ++counted;
         }
-        if (i + step < n && curve.u[i + step] < 0.995) {
+        if (i + step < n && curve.u[i + step] < 0.99) {
             const double mass = cumulative(curve.z[i + step]) - cumulative(curve.z[i]);
             const double ratio = (curve.u[i + step] - U) / mass - 1;
             low = std::max(low, -ratio), high = std::max(high, ratio);
@@ -108,8 +108,8 @@ std::vector<Finding> measure_bias(runtime::Evaluator& evaluator, const Function&
     add("fit: CDF error at the end", 0.5 * (1 - cumulative(curve.end)), cdf_error_at_end, "");
     add("fit: largest slope", curve.end, cut, "");
     add("fit: rms angle, U < 0.999", std::sqrt(squares / static_cast<double>(counted)), rms_angle, "rad");
-    add("fit: density too low by, U < 0.995", low, density_low, "");
-    add("fit: density too high by, U < 0.995", high, density_high, "");
+    add("fit: density too low by, U < 0.99", low, density_low, "");
+    add("fit: density too high by, U < 0.99", high, density_high, "");
     return findings;
 }
 

@@ -62,7 +62,8 @@ void add_invariants(const Function& sampler, const RowReader& reader, const doub
 
 template <class R>
 MapErrors map_errors(const Function& sampler, const Table& table, const Columns& results, Real real) {
-    const auto conditioned = reference::find_conditioned<R>(sampler.name);
+    const auto evaluation = reference::find_evaluation<R>(sampler.name);
+    const auto conditioning = reference::find_condition(sampler.name);
     const RowReader reader(sampler);
     const double unit = epsilon(real);
     std::vector<MapErrors> parts(thread_count());
@@ -77,8 +78,9 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
             if (!defined) continue;
             const std::vector<R> in(row.begin(), row.end());
             R exact[4];
-            const double condition = conditioned(in.data(), exact, precision(real));
+            const double condition = conditioning(row.data(), precision(real));
             if (!std::isfinite(condition)) continue;  // the map has a true singularity there
+            evaluation(in.data(), exact, precision(real));
             const R wide[3] = {result[0], result[1], result[2]};
             const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
             (where == Region::front ? errors.front : errors.back).add(error, i);
