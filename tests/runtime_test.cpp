@@ -304,18 +304,21 @@ TEST_CASE("a failed build names device, options, file and line") {
     }
 }
 
-TEST_CASE("a seeded mistake changes results only where it is switched on") {
+TEST_CASE("a seeded mistake changes results where it is switched on, and only there") {
     const Function& f = function("vndf_jacobian_reflect");
     const auto in = rows<float>(f, 64);
     ProgramOptions options;
     options.functions = {f.name};
-    options.substitutions = {
-        {"kernels/batch/batch.cl", "#undef VNDF_BATCH_IN", "__kernel void vndf_planted(void) {}", 3}};
-    DeviceEvaluator clean(device(), Math::strict, Real::f32, options);
+    DeviceEvaluator plain(device(), Math::strict, Real::f32, options);
+    options.substitutions = {{"kernels/batch/entry_point.h", "= result member;", "= -result member;", 3}};
+    DeviceEvaluator off(device(), Math::strict, Real::f32, options);
     options.mutant = 3;
-    DeviceEvaluator seeded(device(), Math::strict, Real::f32, options);
-    CHECK(differences(run<float>(clean, f, in), run<float>(seeded, f, in)) == 0);
-    CHECK_THAT(seeded.build_options(), ContainsSubstring("-DVNDF_MUTANT=3"));
+    DeviceEvaluator on(device(), Math::strict, Real::f32, options);
+    auto expected = run<float>(plain, f, in);
+    CHECK(differences(run<float>(off, f, in), expected) == 0);
+    for (float& x : expected[0]) x = -x;
+    CHECK(differences(run<float>(on, f, in), expected) == 0);
+    CHECK_THAT(on.build_options(), ContainsSubstring("-DVNDF_MUTANT=3"));
 }
 
 // --------------------------------------------------------------------------------------------- uniforms

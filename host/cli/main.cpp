@@ -4,6 +4,7 @@
 #include <exception>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -102,6 +103,9 @@ int main(int argc, char** argv) {
     } catch (const vndf::Error& error) {
         fmt::print(stderr, "clvndf: {}\n", error.what());
         return error.exit_status();
+    } catch (const std::system_error& error) {  // what fmt::print throws
+        fmt::print(stderr, "clvndf: standard output: {}\n", error.what());
+        return 2;
     } catch (const std::exception& error) {
         fmt::print(stderr, "clvndf: {}\n", error.what());
         return 3;

@@ -37,7 +37,7 @@ DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, con
     require_real(device, real);
     const Assembly assembly{options.functions, options.substitutions};
     const std::string source =
-        assemble(options.root, assembly) + assemble("kernels/batch/uniforms.cl");
+        assemble(options.root, assembly) + assemble("kernels/batch/uniforms.cl", assembly);
     try {
         context_ = cl::Context(device.handle);
         queue_ = cl::CommandQueue(context_, device.handle);
@@ -46,9 +46,9 @@ DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, con
     } catch (const cl::BuildError& error) {
         std::string log;
         for (const auto& [_, text] : error.getBuildLog()) log += text;
-        throw DeviceError(fmt::format(
-            "cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", options.root, device.name,
-            device.platform_version, opencl_error_name(error.err()), build_options_, indented(log)));
+        throw DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", options.root,
+                                      device.name, device.platform_version, opencl_error_name(error.err()),
+                                      build_options_, indented(log)));
     } catch (const cl::Error& error) {
         throw DeviceError(fmt::format("cannot use \"{}\" ({}): {} failed with {}", device.name,
                                       device.platform_version, error.what(), opencl_error_name(error.err())));

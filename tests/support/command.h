@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "support/catch.h"
+#include "catch.h"
 
 namespace vndf {
 
