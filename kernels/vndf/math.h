@@ -32,7 +32,7 @@
 #if VNDF_DOUBLE
 #define VNDF_IMPL_MANTISSA_BITS 52
 #define VNDF_IMPL_EXPONENT_BIAS 1023
-#define VNDF_IMPL_ROUNDER 6755399441055744.0          // 1.5 * 2^52: x + it - it rounds to an integer
+#define VNDF_IMPL_ROUNDER 6755399441055744.0           // 1.5 * 2^52: x + it - it rounds to an integer
 #define VNDF_IMPL_LN2_HIGH 6.93147180369123816490e-01  // 33 bits, so that its multiples up to 2^20 are exact
 #define VNDF_IMPL_LN2_LOW 1.90821492927058770002e-10
 #define VNDF_IMPL_EXP_MIN -1400.0  // exp(x / 2) is still normal
@@ -40,17 +40,25 @@
 #else
 #define VNDF_IMPL_MANTISSA_BITS 23
 #define VNDF_IMPL_EXPONENT_BIAS 127
-#define VNDF_IMPL_ROUNDER 12582912.0f  // 1.5 * 2^23: x + it - it rounds to an integer
+#define VNDF_IMPL_ROUNDER 12582912.0f    // 1.5 * 2^23: x + it - it rounds to an integer
 #define VNDF_IMPL_LN2_HIGH 0.693359375f  // 9 bits, so that its multiples up to 2^15 are exact
 #define VNDF_IMPL_LN2_LOW -2.12194440e-4f
 #define VNDF_IMPL_EXP_MIN -174.0f  // exp(x / 2) is still normal
 #define VNDF_IMPL_MAX 3.402823466e38f
 #endif
 
-VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) { return x < VNDF_R(0.0) ? -x : x; }
-VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL x, VNDF_REAL limit) { return x > limit ? limit : x; }
-VNDF_FN VNDF_REAL vndf_impl_max(VNDF_REAL x, VNDF_REAL limit) { return x < limit ? limit : x; }
-VNDF_FN VNDF_REAL vndf_impl_square(VNDF_REAL x) { return x * x; }
+VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
+    return x < VNDF_R(0.0) ? -x : x;
+}
+VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL x, VNDF_REAL limit) {
+    return x > limit ? limit : x;
+}
+VNDF_FN VNDF_REAL vndf_impl_max(VNDF_REAL x, VNDF_REAL limit) {
+    return x < limit ? limit : x;
+}
+VNDF_FN VNDF_REAL vndf_impl_square(VNDF_REAL x) {
+    return x * x;
+}
 
 // 2^k for exponents of normal numbers.
 VNDF_FN VNDF_REAL vndf_impl_exp2i(VNDF_INT k) {
@@ -139,18 +147,23 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
 }
 
 // exp(x) for x <= 88 / 700; subnormal, then 0 below. Accuracy: 2 / 2.
-VNDF_FN VNDF_REAL vndf_impl_exp(VNDF_REAL x) { return vndf_impl_scaled_exp(x, VNDF_R(0.0), VNDF_R(1.0)); }
+VNDF_FN VNDF_REAL vndf_impl_exp(VNDF_REAL x) {
+    return vndf_impl_scaled_exp(x, VNDF_R(0.0), VNDF_R(1.0));
+}
 
 // scale * exp(-x^2), where the rounding error of x^2 is compensated. Accuracy: 2.5 / 2.5, every x.
 VNDF_FN VNDF_REAL vndf_impl_scaled_expx2(VNDF_REAL x, VNDF_REAL scale) {
-    VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(40.0) : VNDF_R(14.0);  // beyond it the exponential is 0, and x^2 may overflow
+    VNDF_REAL limit =
+        VNDF_DOUBLE ? VNDF_R(40.0) : VNDF_R(14.0);  // beyond it the exponential is 0, and x^2 may overflow
     VNDF_REAL y = vndf_impl_min(vndf_impl_abs(x), limit);
     VNDF_REAL square = y * y;
     return vndf_impl_scaled_exp(-square, -VNDF_FMA(y, y, -square), scale);
 }
 
 // exp(-x^2). Accuracy: 2.5 / 2.5, every x.
-VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) { return vndf_impl_scaled_expx2(x, VNDF_R(1.0)); }
+VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) {
+    return vndf_impl_scaled_expx2(x, VNDF_R(1.0));
+}
 
 // 1 / (1 + sqrt(pi) x + 2 x^2), the common shape of erfcx and 1 - sqrt(pi) x erfcx.
 VNDF_FN VNDF_REAL vndf_impl_erfcx_shape(VNDF_REAL x) {
@@ -208,13 +221,12 @@ VNDF_FN VNDF_REAL vndf_impl_erf(VNDF_REAL x) {
 #define VNDF_IMPL_NEXT_OF(a, b) p = VNDF_FMA(p, z, VNDF_IMPL_SELECT(a, b));
 #endif
 
-// erfinv(p) / p as a function of r = 1 - p^2 = q (2 - q), q = 1 - p, for r in (0, 1]; a caller that has both p and q
-// without cancellation gets erfinv(p) = erfcinv(q) accurate at both ends. Accuracy: 6 / 8.
-VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio(VNDF_REAL r) {
-    VNDF_REAL w = -vndf_impl_log(r);
+// erfinv(p) / p as a function of w = -log(1 - p^2), 0 <= w <= 88 / 744.
+VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio_of_log(VNDF_REAL w) {
     VNDF_REAL root = VNDF_SQRT(vndf_impl_max(w, VNDF_R(1.0)));
     VNDF_REAL inverse = VNDF_R(1.0) / root;
-    bool centre = w <= VNDF_R(7.0);  // one polynomial, whose coefficients are selected: two would not vectorise
+    bool centre =
+        w <= VNDF_R(7.0);  // one polynomial, whose coefficients are selected: two would not vectorise
 #if VNDF_DOUBLE
     bool middle = w <= 40.0;
     VNDF_REAL z = centre ? w - 3.5 : inverse - (middle ? 0.25 : 0.1);
@@ -223,6 +235,12 @@ VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio(VNDF_REAL r) {
 #endif
     VNDF_IMPL_ERFINV(VNDF_IMPL_FIRST_OF, VNDF_IMPL_NEXT_OF)
     return centre ? p : p * root;
+}
+
+// erfinv(p) / p as a function of r = 1 - p^2 = q (2 - q), q = 1 - p, for r in (0, 1]; a caller that has both p and q
+// without cancellation gets erfinv(p) = erfcinv(q) accurate at both ends. Accuracy: 6 / 8.
+VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio(VNDF_REAL r) {
+    return vndf_impl_erfinv_ratio_of_log(-vndf_impl_log(r));
 }
 
 // erfcinv(q) for q in (0, 2). Accuracy: 8 / 10.
@@ -255,7 +273,9 @@ VNDF_FN VNDF_REAL vndf_impl_cbrt(VNDF_REAL x) {
 }
 
 // Kepler's equation at eccentricity 1, eta - sin(eta) = 2 pi p for p in (0, 1/2], by k = vndf_impl_kepler_k(p).
-VNDF_FN VNDF_REAL vndf_impl_kepler_k(VNDF_REAL p) { return vndf_impl_cbrt(VNDF_R(12.0) * VNDF_PI * p); }
+VNDF_FN VNDF_REAL vndf_impl_kepler_k(VNDF_REAL p) {
+    return vndf_impl_cbrt(VNDF_R(12.0) * VNDF_PI * p);
+}
 
 // sin(eta / 2) of eta - sin(eta) = k^3 / 6, 0 <= k <= cbrt(6 pi). Accuracy: 4 / 8.
 VNDF_FN VNDF_REAL vndf_impl_kepler_sin_half(VNDF_REAL k) {
