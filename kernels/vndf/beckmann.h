@@ -244,8 +244,8 @@ VNDF_FN struct vndf_impl_tail vndf_impl_beckmann_tail(struct vndf_impl_incidence
     VNDF_REAL share = VNDF_R(1.0) / i.norm;
     VNDF_REAL e = vndf_impl_scaled_exp(-e_square, -low, share);
     // In front: c erfc(t) / 2 + s e / (2 sqrt(pi)); behind: e (tau + top I(t)) / (2 sqrt(pi) t).
-    VNDF_REAL half = VNDF_R(0.5) * i.c * vndf_impl_erfcx(x) * e;
-    VNDF_REAL upper = t < VNDF_R(0.0) ? VNDF_FMA(i.c, share, -half) : half;
+    VNDF_REAL beyond = VNDF_R(0.5) * i.c * vndf_impl_erfcx(x) * e;
+    VNDF_REAL upper = t < VNDF_R(0.0) ? VNDF_FMA(i.c, share, -beyond) : beyond;
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * e;
     VNDF_REAL behind = edge * VNDF_FMA(i.top, vndf_impl_ierfcx(x), offset) / t;
     r.share = i.front ? VNDF_FMA(i.s, edge, upper) : behind;
@@ -322,8 +322,8 @@ VNDF_FN struct vndf_impl_root vndf_impl_beckmann_start(struct vndf_impl_incidenc
         VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
     VNDF_REAL big_l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q;
 
-    VNDF_REAL half = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
-    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(half, half, VNDF_R(-6.80272109) * log_r)) - half;
+    VNDF_REAL linear = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
+    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(linear, linear, VNDF_R(-6.80272109) * log_r)) - linear;
     VNDF_REAL root_l = VNDF_SQRT(big_l);
     VNDF_REAL normal = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0)));
     normal = u > VNDF_R(0.5) ? -normal : normal;
