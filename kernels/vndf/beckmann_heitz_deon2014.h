@@ -5,7 +5,7 @@
 #ifndef VNDF_BECKMANN_HEITZ_DEON2014_H
 #define VNDF_BECKMANN_HEITZ_DEON2014_H
 
-#include "beckmann.h"
+#include "beckmann_slopes.h"
 
 // The slope x and the second number with its complement, used again where it chose the sign of x.
 struct vndf_impl_folded_slope {
@@ -20,13 +20,14 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
     VNDF_REAL within = vndf_impl_erf(i.a);
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, constant = VNDF_R(0.5) * i.c * beyond;
-    VNDF_REAL mass = u1 * i.norm;
+    VNDF_REAL mass = u1 * i.sigma;
     int far = mass <= edge, outer = mass <= edge + constant;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
-    VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.norm / (i.c * within);
+    VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.sigma / (i.c * within);
     int left = upper > VNDF_R(0.5);
-    VNDF_REAL less = vndf_impl_max(left ? VNDF_R(1.0) - upper : upper, VNDF_R(0.0));
+    VNDF_REAL lower = ((mass - edge) - constant) / (i.c * within);
+    VNDF_REAL less = vndf_impl_max(left ? lower : upper, VNDF_R(0.0));
     VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
 
     // |x| = erfinv(p) with p = 1 - q; for the edge, sqrt(a^2 - log(mass / edge)).
@@ -56,7 +57,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp: rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.u2 * r.v2, VNDF_U_MIN);
     VNDF_REAL y = (r.v2 - r.u2) * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, -r.x, y));
+    struct vndf_impl_slope_found along;
+    along.offset = -r.x;
+    along.origin.base = VNDF_R(0.0);
+    along.origin.edge = 0;
+    return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, along, y));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map

@@ -6,13 +6,13 @@
 #ifndef VNDF_BECKMANN_JAKOB2014_H
 #define VNDF_BECKMANN_JAKOB2014_H
 
-#include "beckmann.h"
+#include "beckmann_slopes.h"
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
-    VNDF_REAL offset = vndf_impl_beckmann_offset(f.slopes, vndf_impl_u(u.x));
+    struct vndf_impl_slope_found along = vndf_impl_slope_of_mass(f.slopes, vndf_impl_u(u.x));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it.
-    return vndf_impl_beckmann_normal(f, offset, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
+    return vndf_impl_beckmann_normal(f, along, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
 }
 
 // A visible normal by inversion of the visible slope distribution.

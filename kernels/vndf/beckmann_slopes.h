@@ -1,0 +1,326 @@
+// The visible slopes of the Beckmann distribution in the plane of incidence, at alpha = 1, and what the samplers share.
+//
+// c, s are cosine and sine of the polar angle of the view direction, a = c / s. A normal (-x, ., 1) has the slope t = -x
+// towards the view direction, and the distance y = t + a > 0 from the edge of the visible. The density of t is
+// s y e^(-t^2) / (sqrt(pi) sigma); with I of beckmann.h, the distribution function of x = -t is
+//     C = [s y sqrt(pi) erfcx(t) + s I(t)] e^(-t^2) / (2 sqrt(pi) sigma),
+// all terms positive for t > 0. Masses above 1/2 are replaced by their complements, also formed without cancellation.
+#ifndef VNDF_BECKMANN_SLOPES_H
+#define VNDF_BECKMANN_SLOPES_H
+
+#include "beckmann.h"
+
+// The view direction, s > 0 or c > 0. Behind the surface s e^(-a^2) is left out of all terms: s is 1, sigma and the
+// exponents are relative to it.
+struct vndf_impl_incidence_slopes {
+    VNDF_REAL c, s;
+    VNDF_REAL a;         // |a|
+    VNDF_REAL gaussian;  // e^(-a^2)
+    VNDF_REAL sigma;
+    VNDF_REAL hidden;  // in front, the mass of slopes that face away, over sigma
+    VNDF_REAL reach;   // 1 - C tends to (y / reach)^2 at the edge
+    int front;
+};
+VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL c, VNDF_REAL s) {
+    struct vndf_impl_incidence_slopes i;
+    struct vndf_impl_slopes slopes = vndf_impl_slopes_of(s, c);
+    VNDF_REAL edge = s * slopes.gaussian, hidden = edge * slopes.hidden;
+    i.front = c >= VNDF_R(0.0);
+    i.c = c;
+    i.s = i.front ? s : VNDF_R(1.0);
+    i.a = slopes.a;
+    i.gaussian = slopes.gaussian;
+    i.sigma = i.front ? hidden + c : slopes.hidden;
+    i.hidden = hidden / i.sigma;
+    i.reach = VNDF_SQRT(VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? edge : VNDF_R(1.0)));
+    return i;
+}
+
+// A slope t = base + offset. Near the edge the base is -a and the offset y, elsewhere they are 0 and t: the offset keeps
+// the digits that matter.
+struct vndf_impl_slope_origin {
+    VNDF_REAL base;
+    int edge;
+};
+// From t = -8 on, where no mass of 2^-53 lies beyond, the edge is out of reach.
+VNDF_FN struct vndf_impl_slope_origin vndf_impl_slope_origin_of(struct vndf_impl_incidence_slopes i,
+                                                                int upper) {
+    struct vndf_impl_slope_origin o;
+    o.edge = !i.front || (upper && i.a < VNDF_R(8.0));
+    o.base = o.edge ? (i.front ? -i.a : i.a) : VNDF_R(0.0);
+    return o;
+}
+
+// s y, without the factor s behind the surface.
+VNDF_FN VNDF_REAL vndf_impl_slope_projection(struct vndf_impl_incidence_slopes i,
+                                             struct vndf_impl_slope_origin o, VNDF_REAL offset) {
+    return o.edge ? i.s * offset : VNDF_FMA(i.s, offset, i.c);
+}
+
+// t^2, behind the surface t^2 - a^2, as a sum of two numbers.
+struct vndf_impl_slope_square {
+    VNDF_REAL head, tail;
+};
+VNDF_FN struct vndf_impl_slope_square vndf_impl_slope_square_of(struct vndf_impl_incidence_slopes i,
+                                                                VNDF_REAL base, VNDF_REAL offset) {
+    struct vndf_impl_slope_square square;
+    VNDF_REAL t = base + offset;
+    VNDF_REAL p = i.front ? t : offset, q = i.front ? t : base + t;
+    square.head = p * q;
+    square.tail = VNDF_FMA(p, q, -square.head);
+    return square;
+}
+
+// 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J (y / reach)^2, for |2 a y| <= 1 and
+// y <= 0.6: sum of 2 H_n(a) y^n / (n! (n + 2)). The first omitted term is below 2^-25 (double: 2^-54).
+VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y) {
+    VNDF_REAL w = VNDF_R(2.0) * y * y, before = VNDF_R(1.0), g = two_ay, next;
+    VNDF_REAL sum = VNDF_FMA(VNDF_R(0.66666666666666666667), g, VNDF_R(1.0));
+#define VNDF_IMPL_TERM(n)                                                \
+    next = VNDF_FMA(two_ay, g, -w * before) * (VNDF_R(1.0) / VNDF_R(n)); \
+    before = g;                                                          \
+    g = next;                                                            \
+    sum = VNDF_FMA(VNDF_R(2.0) / (VNDF_R(n) + VNDF_R(2.0)), g, sum);
+    VNDF_IMPL_TERM(2.0)
+    VNDF_IMPL_TERM(3.0)
+    VNDF_IMPL_TERM(4.0)
+    VNDF_IMPL_TERM(5.0)
+    VNDF_IMPL_TERM(6.0)
+    VNDF_IMPL_TERM(7.0)
+    VNDF_IMPL_TERM(8.0)
+    VNDF_IMPL_TERM(9.0)
+#if VNDF_DOUBLE
+    VNDF_IMPL_TERM(10.0)
+    VNDF_IMPL_TERM(11.0)
+    VNDF_IMPL_TERM(12.0)
+    VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(14.0)
+    VNDF_IMPL_TERM(15.0)
+    VNDF_IMPL_TERM(16.0)
+    VNDF_IMPL_TERM(17.0)
+    VNDF_IMPL_TERM(18.0)
+    VNDF_IMPL_TERM(19.0)
+    VNDF_IMPL_TERM(20.0)
+#endif
+#undef VNDF_IMPL_TERM
+    return sum;
+}
+
+// The mass C beyond t (upper: 1 - C, on this side of it), and the density of t.
+struct vndf_impl_slope_mass {
+    VNDF_REAL mass, density;
+    VNDF_REAL bend;  // derivative of the density over the density
+};
+VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_incidence_slopes i,
+                                                            struct vndf_impl_slope_origin o, VNDF_REAL offset,
+                                                            int upper) {
+    struct vndf_impl_slope_mass r;
+    VNDF_REAL t = o.base + offset, x = vndf_impl_abs(t);
+    VNDF_REAL projection = vndf_impl_slope_projection(i, o, offset);
+    struct vndf_impl_slope_square square = vndf_impl_slope_square_of(i, o.base, offset);
+    VNDF_REAL e = vndf_impl_scaled_exp(-square.head, -square.tail, VNDF_R(1.0) / i.sigma);
+    // For t < 0 the formula for C, with t replaced by |t|, gives 1 - C less the slopes that face away.
+    VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx(x) * e;
+    VNDF_REAL wing = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * vndf_impl_ierfcx(x) * e;
+    int beyond = t >= VNDF_R(0.0);
+    VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
+    mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
+    // Next to the edge 1 - C is a difference of nearly equal terms.
+    VNDF_REAL two_ay = VNDF_R(-2.0) * o.base * offset, ratio = offset / i.reach;
+    VNDF_REAL near = ratio * ratio * vndf_impl_edge_series(two_ay, offset);
+    int series = upper && o.edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.6);
+    r.mass = series ? near : mass;
+    r.density = VNDF_1_SQRT_PI * projection * e;
+    r.bend = i.s / projection - VNDF_R(2.0) * t;
+    return r;
+}
+
+// The marginal density of visible slopes in the plane of incidence, alpha = 1.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
+// cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
+// x: slope of the normal (-x, ., 1), positive away from the view direction.
+// return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
+// Accuracy: 16 (1 + 2 q).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x), y = visible / sine;
+    VNDF_REAL exponent = i.front ? x * x : y * VNDF_FMA(VNDF_R(2.0), i.a, y);
+    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? visible : y) / i.sigma;
+    VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
+    return visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+// Its cumulative distribution.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
+// cos_theta, x: as for vndf_beckmann_slope_pdf.
+// return: in [0, 1]; 1 for x >= cot(theta), and for cos_theta = -1, where nothing is visible.
+// Accuracy: 16 (1 + 2 q).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    struct vndf_impl_slope_origin o = vndf_impl_slope_origin_of(i, 0);
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, o, i.front ? -x : visible / sine, 0).mass;
+    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? cdf : VNDF_R(1.0);
+}
+
+// Where to start: the offset within a factor 2 of the root, in y.
+//
+// In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where the Gaussian
+// is cut far away, and below reach sqrt(L), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for a = 0, and
+// the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
+struct vndf_impl_slope_root {
+    VNDF_REAL offset, low, high;
+};
+VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_start(struct vndf_impl_incidence_slopes i,
+                                                          struct vndf_impl_slope_origin o, VNDF_REAL u) {
+    struct vndf_impl_slope_root root;
+    VNDF_REAL rest = VNDF_R(1.0) - u, m = vndf_impl_min(u, rest);
+    VNDF_REAL log_r = vndf_impl_log(VNDF_R(4.0) * u * rest);
+    // -log(1 - m) to 1 % on [0, 1/2], and log(u) from it.
+    VNDF_REAL q =
+        VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
+    VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q, root_l = VNDF_SQRT(l);
+
+    VNDF_REAL half = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
+    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(half, half, VNDF_R(-6.80272109) * log_r)) - half;
+    VNDF_REAL size = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), normal = u > VNDF_R(0.5) ? -size : size;
+    VNDF_REAL g = normal + i.a;
+    VNDF_REAL bow = VNDF_R(0.7) / (vndf_impl_abs(g) + VNDF_SQRT(VNDF_FMA(g, g, VNDF_R(1.4))));
+    VNDF_REAL edge = root_l * i.reach;
+    VNDF_REAL in_front = o.edge ? vndf_impl_min(vndf_impl_max(g, VNDF_R(0.0)) + bow, edge)
+                                : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
+
+    VNDF_REAL grazing = i.a * i.reach;  // from 0 at a = 0 to 1 / sqrt(2)
+    VNDF_REAL v =
+        VNDF_FMA(VNDF_R(2.0) * grazing, root_l, l * VNDF_FMA(VNDF_R(-0.5) * grazing, grazing, VNDF_R(1.0)));
+    VNDF_REAL v_high = VNDF_R(1.1) * VNDF_FMA(VNDF_R(1.41421356), root_l, l);
+
+    root.offset = i.front ? in_front : v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
+    root.low = o.edge ? VNDF_R(0.0) : vndf_impl_max(-i.a, VNDF_R(-8.0));
+    root.high = i.front ? VNDF_FMA(VNDF_R(1.1), root_l, -o.base)
+                        : v_high / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v_high)));
+    return root;
+}
+
+// One step: Halley's on the logarithm of the mass over k, near 1 equal to 2 (m - k) / (m + k). `low` and `high` bracket
+// the root (<=: a converged root lies on the bracket); a step that leaves them bisects.
+VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_step(struct vndf_impl_incidence_slopes i,
+                                                         struct vndf_impl_slope_origin o, VNDF_REAL k,
+                                                         int upper, struct vndf_impl_slope_root root) {
+    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, root.offset, upper);
+    VNDF_REAL excess = upper ? k - m.mass : m.mass - k;
+    int below = excess > VNDF_R(0.0);
+    root.low = below ? root.offset : root.low;
+    root.high = below ? root.high : root.offset;
+    VNDF_REAL rate = m.density / m.mass;
+    VNDF_REAL newton = VNDF_R(2.0) * excess / ((m.mass + k) * rate);
+    VNDF_REAL curvature = m.bend + (upper ? -rate : rate);
+    VNDF_REAL denominator = VNDF_FMA(VNDF_R(0.5) * newton, curvature, VNDF_R(1.0));
+    denominator = vndf_impl_min(vndf_impl_max(denominator, VNDF_R(0.5)), VNDF_R(2.0));
+    VNDF_REAL next = root.offset + newton / denominator;
+    int inside = next >= root.low && next <= root.high;
+    root.offset = inside ? next : VNDF_R(0.5) * (root.low + root.high);
+    return root;
+}
+
+// The slope with the mass u beyond it; monotone in u.
+struct vndf_impl_slope_found {
+    VNDF_REAL offset;
+    struct vndf_impl_slope_origin origin;
+};
+VNDF_FN struct vndf_impl_slope_found vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i,
+                                                             VNDF_REAL u) {
+    struct vndf_impl_slope_found found;
+    int upper = u > VNDF_R(0.5);
+    VNDF_REAL k = upper ? VNDF_R(1.0) - u : u;
+    found.origin = vndf_impl_slope_origin_of(i, upper);
+    struct vndf_impl_slope_root root = vndf_impl_slope_start(i, found.origin, u);
+#ifdef VNDF_STEPS
+    for (int j = 0; j < VNDF_STEPS; ++j) root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+#else
+    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+#if VNDF_DOUBLE
+    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+#endif
+#endif
+    found.offset = root.offset;
+    return found;
+}
+
+// The inverse of vndf_beckmann_slope_cdf.
+// Source: Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014, whose equation in erf x
+//     is solved here in x, in forms that do not cancel.
+// cos_theta: in [-1, 1].
+// u1: probability, clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
+// Accuracy: 16 (1 + condition number).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
+    struct vndf_impl_incidence_slopes i =
+        vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));
+    struct vndf_impl_slope_found found = vndf_impl_slope_of_mass(i, vndf_impl_u(u1));
+    VNDF_REAL x = -(found.origin.base + found.offset);
+    return cos_theta > VNDF_R(-1.0) ? x : -VNDF_REAL_MAX;
+}
+
+// --- What the samplers share ---
+
+// The plane of incidence of a stretched view direction: its azimuth, (1, 0) if it has none, and its slopes.
+struct vndf_impl_beckmann_frame {
+    VNDF_REAL alpha_x, alpha_y, ex, ey, z, l;
+    struct vndf_impl_incidence_slopes slopes;
+};
+VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
+    struct vndf_impl_beckmann_frame f;
+    VNDF_REAL rcp_r = VNDF_R(1.0) / v.r;
+    f.alpha_x = v.alpha_x;
+    f.alpha_y = v.alpha_y;
+    f.ex = v.rcp_l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
+    f.ey = v.y * v.rcp_l;
+    f.z = v.z;
+    f.l = v.l;
+    f.slopes = vndf_impl_beckmann_incidence(v.z * rcp_r, v.l * rcp_r);
+    return f;
+}
+
+// The normal of the slopes (t, y) towards and across e, before the stretch, and its density |g|^3 / (alpha_x alpha_y)
+// times `weight` e^(-exponent), g = (alpha_x h_x, alpha_y h_y, 1). All is scaled by a power of two near 1 / t: squares
+// of t may overflow.
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL t,
+                                                             VNDF_REAL y, VNDF_REAL alpha_x,
+                                                             VNDF_REAL alpha_y, VNDF_REAL weight) {
+    struct vndf_impl_sample m;
+    VNDF_REAL scale = vndf_impl_scale(VNDF_R(1.0) + vndf_impl_abs(t));
+    VNDF_REAL ts = t * scale, ys = y * scale;
+    VNDF_REAL gx = alpha_x * vndf_impl_difference_of_products(ts, ex, ys, ey);
+    VNDF_REAL gy = alpha_y * vndf_impl_difference_of_products(ts, ey, -ys, ex);
+    VNDF_REAL length = VNDF_SQRT(VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, scale * scale)));
+    VNDF_REAL rcp = VNDF_R(1.0) / length, rise = length / scale;
+    m.x = gx * rcp;
+    m.y = gy * rcp;
+    m.z = scale * rcp;
+    m.pdf = vndf_impl_finite(weight * (rise / alpha_x) * (rise / alpha_y) * rise);
+    return m;
+}
+
+// The normal of the slope found along and of y across the plane of incidence, with its visible density.
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f,
+                                                          struct vndf_impl_slope_found along, VNDF_REAL y) {
+    struct vndf_impl_incidence_slopes i = f.slopes;
+    struct vndf_impl_slope_square square = vndf_impl_slope_square_of(i, along.origin.base, along.offset);
+    VNDF_REAL exponent = VNDF_FMA(y, y, square.head);
+    VNDF_REAL low = square.tail + VNDF_FMA(y, y, square.head - exponent);
+    VNDF_REAL projection =
+        vndf_impl_max(vndf_impl_slope_projection(i, along.origin, along.offset), VNDF_R(0.0));
+    VNDF_REAL weight = vndf_impl_scaled_exp(-exponent, -low, VNDF_1_PI * projection / i.sigma);
+    // At wo = -z nothing is visible.
+    weight = i.front || f.l > VNDF_R(0.0) ? weight : VNDF_R(0.0);
+    return vndf_impl_beckmann_unstretch(f.ex, f.ey, along.origin.base + along.offset, y, f.alpha_x, f.alpha_y,
+                                        weight);
+}
+
+#endif
