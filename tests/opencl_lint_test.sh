@@ -11,7 +11,6 @@ for candidate in clang clang-19 clang-18 clang-17 clang-16 clang-15 clang-14; do
 done
 [ -n "$clang" ] || { echo "no clang" && exit 77; }
 
-status=0
 for target in spir64 amdgcn nvptx64; do
     for standard in CL1.2 CL3.0; do
         for real in float double; do
@@ -21,10 +20,9 @@ for target in spir64 amdgcn nvptx64; do
                         -fsyntax-only -Wall -Wextra -Wno-unused-function -Werror -I "$kernels" \
                         -D VNDF_REAL=$real -D VNDF_MATH=$math - || {
                     echo "failed: $clang -cl-std=$standard -target $target $real $math"
-                    status=1
+                    exit 1
                 }
             done
         done
     done
 done
-exit $status
