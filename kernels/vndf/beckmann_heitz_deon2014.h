@@ -12,26 +12,26 @@ struct vndf_impl_folded_slope {
     VNDF_REAL x, u2, v2;
 };
 
-// The masses before division by sigma: edge = s e^(-a^2) / (2 sqrt(pi)) and constant = c erfc(a) / 2 for x < -a; the rest
+// The masses before division by sigma: edge = s e^(-a^2) / (2 sqrt(pi)) and plateau = c erfc(a) / 2 for x < -a; the rest
 // lies in |x| < a, both signs at once. One logarithm and one erfinv serve all branches: what they take is selected first.
 VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_incidence_slopes i,
                                                               VNDF_REAL u1, VNDF_REAL u2) {
     struct vndf_impl_folded_slope r;
     VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
     VNDF_REAL within = vndf_impl_erf(i.a);
-    VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, constant = VNDF_R(0.5) * i.c * beyond;
+    VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, plateau = VNDF_R(0.5) * i.c * beyond;
     VNDF_REAL mass = u1 * i.sigma;
-    int far = mass <= edge, outer = mass <= edge + constant;
+    int far = mass <= edge, outer = mass <= edge + plateau;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
     VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.sigma / (i.c * within);
     int left = upper > VNDF_R(0.5);
-    VNDF_REAL lower = ((mass - edge) - constant) / (i.c * within);
+    VNDF_REAL lower = ((mass - edge) - plateau) / (i.c * within);
     VNDF_REAL less = vndf_impl_max(left ? lower : upper, VNDF_R(0.0));
     VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
 
     // |x| = erfinv(p) with p = 1 - q; for the edge, sqrt(a^2 - log(mass / edge)).
-    VNDF_REAL q = outer ? (mass - edge) / constant * beyond : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
+    VNDF_REAL q = outer ? (mass - edge) / plateau * beyond : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
     VNDF_REAL w = -vndf_impl_log(far ? mass / edge : q * (VNDF_R(1.0) + p));
     VNDF_REAL size = p * vndf_impl_erfinv_ratio_of_log(w);

@@ -183,8 +183,8 @@ VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_start(struct vndf_impl_incid
         VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
     VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q, root_l = VNDF_SQRT(l);
 
-    VNDF_REAL half = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
-    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(half, half, VNDF_R(-6.80272109) * log_r)) - half;
+    VNDF_REAL mid = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
+    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(mid, mid, VNDF_R(-6.80272109) * log_r)) - mid;
     VNDF_REAL size = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), normal = u > VNDF_R(0.5) ? -size : size;
     VNDF_REAL g = normal + i.a;
     VNDF_REAL bow = VNDF_R(0.7) / (vndf_impl_abs(g) + VNDF_SQRT(VNDF_FMA(g, g, VNDF_R(1.4))));
