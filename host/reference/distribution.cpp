@@ -79,16 +79,14 @@ void panels(double a, double b, double width, F f) {
     for (int i = 0; i < count; ++i) gauss<n>(a + (b - a) * i / count, a + (b - a) * (i + 1) / count, f);
 }
 
-// Tanh-sinh nodes on [a, b]: layers at the ends, however thin, are resolved.
+// Nodes x = a + (b - a) / (1 + e^-s) on equal steps of s. A layer of any width at an end is a singularity at
+// the imaginary distance pi / 2 in s: the error falls as e^(-pi^2 / step), whatever the width.
 template <class F>
-void tanh_sinh(double a, double b, double step, F f) {
-    const int count = static_cast<int>(3.4 / step);
+void logistic(double a, double b, double step, double reach, F f) {
+    const int count = static_cast<int>(reach / step);
     for (int i = -count; i <= count; ++i) {
-        const double t = i * step, s = pi_d / 2 * std::sinh(t);
-        // (1 - tanh|s|) / 2 = 1 / (1 + e^(2|s|)), the distance from the nearer end
-        const double from_end = (b - a) / (1 + std::exp(2 * std::abs(s)));
-        const double weight = (b - a) / 2 * step * (pi_d / 2) * std::cosh(t) / (std::cosh(s) * std::cosh(s));
-        f(i < 0 ? a + from_end : b - from_end, weight);
+        const double e = std::exp(-std::abs(i * step)), near = (b - a) * e / (1 + e);
+        f(i < 0 ? a + near : b - near, step * near / (1 + e));
     }
 }
 
@@ -272,8 +270,9 @@ std::vector<double> quantile_edges(std::vector<double> values, std::size_t n, do
 Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
     const auto evaluate = find_evaluation<double>(sampler_);
     std::vector<double> in = in_, thetas, phis;
-    // Opposite to e, where behind the surface nothing is visible. Azimuths as angles() counts them.
-    double start = std::atan2(-ey_, -ex_);
+    // About opposite to e, where behind the surface nothing is visible, but not in a plane of symmetry; azimuths
+    // as angles() counts them.
+    double start = std::atan2(-ey_, -ex_) + 1e-3;
     if (start < 0) start += 2 * pi_d;
     constexpr int count = 8192;
     for (int i = 0; i < count; ++i) {  // the plastic number's low-discrepancy sequence
@@ -291,7 +290,9 @@ Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
 // In stretched polar slopes: m ~ (r cos(phi), r sin(phi), 1), the density of (r, phi) is
 // (sin r cos(phi - phi_e) + cos) r P22(r) / sigma where the bracket is positive.
 struct Distribution::Range {
-    double lo, hi, slope;  // slope = sin cos(phi - phi_e)
+    double lo, hi;
+    double slope;  // sin cos(phi - phi_e)
+    double turn;   // tan(phi - phi_e)
 };
 
 // What the density is divided by. (Beckmann behind the surface: without e^(-a^2).)
@@ -303,14 +304,16 @@ double Distribution::normaliser() const {
 
 Distribution::Range Distribution::range(double phi) const {
     const double infinity = std::numeric_limits<double>::infinity();
-    const double turn = std::cos(phi) * ex_ + std::sin(phi) * ey_, slope = sin_ * turn;
+    const double c = std::cos(phi), s = std::sin(phi);
+    const double cos_turn = c * ex_ + s * ey_, turn = (s * ex_ - c * ey_) / cos_turn, slope = sin_ * cos_turn;
     if (kind_ == Kind::bounded) {
         // 2 (slope r + cos) / (1 + r^2) > (1 - k) cos: r below the positive root
         const double root = std::sqrt(slope * slope + gap_ * (1 + k_) * cos_ * cos_);
-        return {0, slope > 0 ? (slope + root) / (gap_ * cos_) : (1 + k_) * cos_ / (root - slope), slope};
+        const double hi = slope > 0 ? (slope + root) / (gap_ * cos_) : (1 + k_) * cos_ / (root - slope);
+        return {0, hi, slope, turn};
     }
-    if (cos_ >= 0) return {0, slope < 0 ? cos_ / -slope : infinity, slope};
-    return {slope > 0 ? -cos_ / slope : infinity, infinity, slope};
+    if (cos_ >= 0) return {0, slope < 0 ? cos_ / -slope : infinity, slope, turn};
+    return {slope > 0 ? -cos_ / slope : infinity, infinity, slope, turn};
 }
 
 // Per unit of phi, the mass at polar angles below each of the given ones (ascending).
@@ -329,8 +332,8 @@ void Distribution::cumulative(double phi, const std::vector<double>& tan_theta, 
     };
     const auto beckmann = [&](double r) {
         if (behind) {
-            // e^(a^2 - r^2) (cos + slope (sqrt(pi) / 2 mass(r) + r)) / 2, cos = -slope lo
-            return std::exp((in.lo - r) * (in.lo + r) + (-a_ - in.lo) * (in.lo - a_)) * in.slope *
+            // lo = |a| / cos(turn): e^(a^2 - r^2) (cos + slope (sqrt(pi) / 2 mass(r) + r)) / 2, cos = -slope lo
+            return std::exp((in.lo - r) * (in.lo + r) - in.turn * a_ * (in.turn * a_)) * in.slope *
                    ((r - in.lo) + root_pi / 2 * quick_tail(r).mass) / 2;
         }
         const double e = std::exp(-r * r);
@@ -407,8 +410,8 @@ std::vector<double> Distribution::bin_probabilities(const Bins& bins) const {
         tangents.push_back(theta < pi_d / 2 ? std::tan(theta) : std::numeric_limits<double>::infinity());
     // A monotone map of the azimuth, quadrant by quadrant.
     const auto stretched = [&](double phi) {
-        const double turns = std::floor(phi / (2 * pi_d) + 0.5);
-        return std::atan2(std::sin(phi) / alpha_y_, std::cos(phi) / alpha_x_) + turns * 2 * pi_d;
+        const double azimuth = std::atan2(std::sin(phi) / alpha_y_, std::cos(phi) / alpha_x_);
+        return azimuth + 2 * pi_d * std::round((phi - azimuth) / (2 * pi_d));
     };
     const std::vector<double> breaks = azimuth_breaks();
     std::vector<double> result(n_theta * n_phi);
@@ -455,9 +458,9 @@ void Distribution::add(const Node& node, QuadratureRule& rule) const {
 }
 
 // GGX: polar slopes, the length by its logarithm, in which both the density and unstretching vary over a distance
-// of order 1; the azimuth between its breaks by tanh-sinh.
+// of order 1; the azimuth between its breaks.
 void Distribution::add_polar_nodes(QuadratureRule& rule, bool fine) const {
-    const double tail = fine ? 26 : 20, head = fine ? 13 : 10, width = fine ? 2 : 2.5;
+    const double tail = fine ? 26 : 20, head = fine ? 13 : 10, width = fine ? 2 : 3;
     const double scale = 1 / (pi_d * normaliser());
     std::vector<double> breaks;
     const double e = std::atan2(ey_, ex_);
@@ -467,23 +470,21 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, bool fine) const {
     std::sort(breaks.begin(), breaks.end());
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         if (!(breaks[i + 1] - breaks[i] > 1e-13)) continue;
-        tanh_sinh(breaks[i], breaks[i + 1], fine ? 0.0625 : 0.125, [&](double phi, double weight) {
-            const Range in = range(phi);
-            if (!(weight > 0) || !(in.lo < in.hi) || !(in.lo < 1e100)) return;
-            const double c = std::cos(phi), s = std::sin(phi);
-            const double lo = in.lo > 0 ? std::log(in.lo) : std::min(0., std::log(in.hi)) - head;
-            const double hi = std::min(std::log(in.hi), std::max(0., lo) + tail);
-            const auto add_node = [&](double log_r, double w) {
-                const double r = std::exp(log_r), q = 1 + r * r;
-                const double area = weight * w * r * r;
-                const double cosine = in.lo > 0 ? in.slope * (r - in.lo) : in.slope * r + cos_;
-                add({r * c, r * s, area, area * scale * std::max(0., cosine) / (q * q)}, rule);
-            };
-            if (fine)
-                panels<10>(lo, hi, width, add_node);
-            else
-                panels<7>(lo, hi, width, add_node);
-        });
+        logistic(breaks[i], breaks[i + 1], fine ? 0.42 : 0.55, fine ? 23 : 18,
+                 [&](double phi, double weight) {
+                     const Range in = range(phi);
+                     if (!(weight > 0) || !(in.lo < in.hi) || !(in.lo < 1e100)) return;
+                     const double c = std::cos(phi), s = std::sin(phi);
+                     const double lo = in.lo > 0 ? std::log(in.lo) : std::min(0., std::log(in.hi)) - head;
+                     const double hi = std::min(std::log(in.hi), std::max(0., lo) + tail);
+                     const auto add_node = [&](double log_r, double w) {
+                         const double r = std::exp(log_r), q = 1 + r * r;
+                         const double area = weight * w * r * r;
+                         const double cosine = in.lo > 0 ? in.slope * (r - in.lo) : in.slope * r + cos_;
+                         add({r * c, r * s, area, area * scale * std::max(0., cosine) / (q * q)}, rule);
+                     };
+                     panels<10>(lo, hi, width, add_node);
+                 });
     }
 }
 
