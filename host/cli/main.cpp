@@ -83,6 +83,9 @@ int run(int argc, char** argv) {
     add_list(app, common);
     add_eval(app, common);
     add_check(app, common);
+#ifdef CLVNDF_BENCH
+    add_bench(app, common);
+#endif
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {

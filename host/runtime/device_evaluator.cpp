@@ -36,10 +36,10 @@ DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, con
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
     require_real(device, real);
     const Assembly assembly{options.functions, options.substitutions};
-    const std::string source =
-        assemble(options.root, assembly) + assemble("kernels/batch/uniforms.cl", assembly);
+    const std::string source = assemble(options.root, assembly) +
+                               assemble("kernels/batch/uniforms.cl", assembly) + options.more_source;
     try {
-        context_ = cl::Context(device.handle);
+        context_ = options.context() ? options.context : cl::Context(device.handle);
         queue_ = cl::CommandQueue(context_, device.handle);
         program_ = cl::Program(context_, source);
         program_.build({device.handle}, build_options_.c_str());

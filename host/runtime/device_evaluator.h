@@ -19,6 +19,8 @@ struct ProgramOptions {
     std::vector<Substitution> substitutions;
     int mutant = 0;  // the substitution switched on; 0: none
     std::string root = "kernels/batch/batch.cl";  // the embedded source with the entry points
+    std::string more_source;                      // OpenCL C after it
+    cl::Context context;                          // shared with the caller; default: a new one
 };
 
 class DeviceEvaluator final : public Evaluator {

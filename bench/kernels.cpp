@@ -1,0 +1,79 @@
+#include "kernels.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace vndf::bench {
+
+bool is_lobe(const std::string& scalar) {
+    for (const std::string_view prefix : {"wo_", "n_", "alpha"})
+        if (scalar.starts_with(prefix)) return true;
+    return scalar == "eta" || scalar == "cos_theta";
+}
+
+// A group passes over its chunk with a barrier in between, which keeps the loop over passes outside the loop that a
+// CPU device makes of the group's items: the inner loop is the one it vectorises.
+std::string compute_source(const Function& function, const std::string& callee, const ComputeShape& shape) {
+    const std::string result = function.result + (function.with_pdf ? "_PDF" : "");
+    std::string parameters, loads;
+    for (const std::string& scalar : function.inputs) {
+        if (is_lobe(scalar)) {
+            parameters += fmt::format("const VNDF_REAL {}, ", scalar);
+        } else {
+            parameters += fmt::format("__global const VNDF_REAL *restrict in_{}, ", scalar);
+            loads += fmt::format("        const VNDF_REAL {0} = in_{0}[i];\n", scalar);
+        }
+    }
+    for (const std::string& scalar : function.outputs)
+        parameters += fmt::format("__global VNDF_REAL *restrict out_{}, ", scalar);
+    return fmt::format(
+        "\n#line 1 \"compute\"\n"
+        "__kernel void vndf_compute({}const uint passes) {{\n"
+        "    for (uint pass = 0; pass < passes; ++pass) {{\n"
+        "        const size_t i = (get_group_id(0) * {} + pass % {}) * get_local_size(0) + get_local_id(0);\n"
+        "{}        const VNDF_TYPE_{} result = {}(VNDF_CALL_{});\n"
+        "        VNDF_RESULTS_{}(VNDF_BATCH_STORE)\n"
+        "        barrier(CLK_GLOBAL_MEM_FENCE);\n"
+        "    }}\n"
+        "}}\n",
+        parameters, shape.chunk, shape.chunk, loads, result, callee, function.arguments, result);
+}
+
+std::string to_string(Copy copy) {
+    return copy == Copy::scalar ? "scalar" : copy == Copy::vector ? "vector" : "streaming";
+}
+
+std::size_t items_per_work_item(Copy copy, runtime::Real real) {
+    return copy == Copy::scalar ? 1 : 32 / size_of(real);
+}
+
+std::string copy_source(Copy copy, std::size_t reads, std::size_t writes, runtime::Real real) {
+    const std::size_t width = items_per_work_item(copy, real);
+    const std::string type = fmt::format("{}{}", to_string(real), width == 1 ? "" : std::to_string(width));
+    std::string parameters, body;
+    for (std::size_t i = 0; i < reads; ++i)
+        parameters += fmt::format("__global const {} *restrict in{}, ", type, i);
+    for (std::size_t k = 0; k < writes; ++k) {
+        parameters += fmt::format("__global {} *restrict out{}, ", type, k);
+        std::string sum = fmt::format("in{}[i]", k % reads);
+        for (std::size_t i = writes + k; i < reads; i += writes) sum += fmt::format(" + in{}[i]", i);
+        body += copy == Copy::streaming ? fmt::format("    VNDF_STREAM(out{}, {});\n", k, sum)
+                                        : fmt::format("    out{}[i] = {};\n", k, sum);
+    }
+    return fmt::format(
+        "\n#line 1 \"copy\"\n"
+        "#define VNDF_STREAM(array, value) array[i] = value\n"
+        "#ifdef __has_builtin\n"
+        "#if __has_builtin(__builtin_nontemporal_store)\n"  // past the cache: a write need not read the line first
+        "#undef VNDF_STREAM\n"
+        "#define VNDF_STREAM(array, value) __builtin_nontemporal_store(value, array + i)\n"
+        "#endif\n"
+        "#endif\n"
+        "__kernel void vndf_copy({}const uint count) {{\n"
+        "    const size_t i = get_global_id(0);\n"
+        "{}}}\n",
+        parameters, body);
+}
+
+}  // namespace vndf::bench

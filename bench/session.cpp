@@ -1,0 +1,345 @@
+#include "session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "conformance/errors.h"
+#include "cpp_build.h"
+#include "error.h"
+#include "inputs.h"
+#include "runtime/opencl_error.h"
+
+namespace vndf::bench {
+namespace {
+
+using runtime::DeviceEvaluator, runtime::Math, runtime::Real;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t local_size = 64;
+constexpr std::size_t column_bytes = std::size_t{1} << 24;  // far beyond every cache, with 10 columns
+constexpr std::size_t distinct_rows = std::size_t{1} << 16;
+constexpr double slow_launch_s = 0.06;      // longer launches are cut to a quarter of the samples
+constexpr double compute_launch_s = 0.004;  // long beside the cost of a launch
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool in_world_space(const Function& function) {
+    return conformance::column(function, "n_x") >= 0;
+}
+
+// Adds what was being done to an OpenCL failure.
+template <class Body>
+auto translated(const runtime::Device& device, const std::string& what, Body body) {
+    try {
+        return body();
+    } catch (const cl::Error& error) {
+        throw DeviceError(fmt::format("cannot measure {} on \"{}\" ({}): {} failed with {}", what,
+                                      device.name, device.platform_version, error.what(),
+                                      runtime::opencl_error_name(error.err())));
+    }
+}
+
+std::vector<char> to_bytes(const std::vector<double>& values, Real real) {
+    std::vector<char> bytes(values.size() * size_of(real));
+    if (real == Real::f64) {
+        std::copy(values.begin(), values.end(), reinterpret_cast<double*>(bytes.data()));
+    } else {
+        std::copy(values.begin(), values.end(), reinterpret_cast<float*>(bytes.data()));
+    }
+    return bytes;
+}
+
+}  // namespace
+
+bool is_published(const Function& function) {
+    static const std::set<std::string> listings = {
+        "vndf_ggx_sample_wm_heitz_deon2014",     "vndf_ggx_sample_wm_heitz2017",
+        "vndf_ggx_sample_wm_heitz2018",          "vndf_ggx_sample_wm_dupuy2023",
+        "vndf_ggx_sample_wm_benyoub2024",        "vndf_ggx_sample_wi_eto2023",
+        "vndf_beckmann_sample_wm_heitz_deon2014"};
+    return listings.contains(function.name);
+}
+
+Session::Session(const runtime::Device& device)
+    : device_(device),
+      context_(device.handle),
+      queue_(context_, device.handle, CL_QUEUE_PROFILING_ENABLE),
+      shape_{32 * std::max(1u, device.compute_units), local_size,
+             // What a group holds fits a CPU's first cache; a GPU's second has to hold all groups at once.
+             (device.type & CL_DEVICE_TYPE_CPU) != 0 ? std::size_t{8} : std::size_t{1}} {}
+
+const conformance::Table& Session::table(const Function& function, Real real) {
+    auto [found, missing] = tables_.try_emplace(function.name + std::string(to_string(real)));
+    if (missing) {
+        const auto rounding =
+            real == Real::f32 ? conformance::Rounding::to_float : conformance::Rounding::none;
+        found->second =
+            conformance::tabulate(function, points(distinct_rows, in_world_space(function)), rounding);
+    }
+    return found->second;
+}
+
+// The column's distinct rows, repeated to its full length.
+cl::Buffer& Session::input(const Function& function, std::size_t index, Real real) {
+    const std::string key =
+        fmt::format("{} {} {}", function.inputs[index], in_world_space(function), to_string(real));
+    const auto found = inputs_.find(key);
+    if (found != inputs_.end()) return found->second;
+    cl::Buffer buffer(context_, CL_MEM_READ_ONLY, column_bytes);
+    const std::vector<char> bytes = to_bytes(table(function, real).columns[index], real);
+    queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
+    for (std::size_t filled = bytes.size(); filled < column_bytes; filled *= 2)
+        queue_.enqueueCopyBuffer(buffer, buffer, 0, filled, std::min(filled, column_bytes - filled));
+    queue_.finish();
+    return inputs_[key] = buffer;
+}
+
+cl::Buffer& Session::output(std::size_t index) {
+    while (outputs_.size() <= index) outputs_.emplace_back(context_, CL_MEM_READ_WRITE, column_bytes);
+    return outputs_[index];
+}
+
+Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
+    cl::Event event;
+    const auto start = Clock::now();
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_items), cl::NDRange(local_size),
+                                nullptr, &event);
+    queue_.finish();
+    const double wall_s = seconds_since(start);
+    cl_ulong begin = 0, end = 0;
+    event.getProfilingInfo(CL_PROFILING_COMMAND_START, &begin);
+    event.getProfilingInfo(CL_PROFILING_COMMAND_END, &end);
+    return {wall_s, static_cast<double>(end - begin) * 1e-9};
+}
+
+cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator, std::size_t items) {
+    cl::Kernel kernel(evaluator.program(), ("vndf_batch_" + function.name).c_str());
+    cl_uint argument = 0;
+    for (std::size_t i = 0; i < function.inputs.size(); ++i)
+        kernel.setArg(argument++, input(function, i, evaluator.input_real()));
+    for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
+    kernel.setArg(argument, static_cast<cl_uint>(items));
+    return kernel;
+}
+
+// Builds the program until its kernel has run: some drivers compile at the first launch. Returns the seconds that the
+// same launch takes less the second time.
+double Session::build(const Function& function, Math math, Real real,
+                      const runtime::ProgramOptions& options) {
+    const std::size_t items = column_bytes / size_of(real) / 64;
+    const auto start = Clock::now();
+    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, math, real, options));
+    const cl::Kernel kernel = stream_kernel(function, *evaluators_.back(), items);
+    launch(kernel, items);
+    return seconds_since(start) - launch(kernel, items).wall_s;
+}
+
+Entry Session::stream_entry(const Function& function, DeviceEvaluator& evaluator) {
+    std::size_t items = column_bytes / size_of(evaluator.input_real());
+    cl::Kernel kernel = stream_kernel(function, evaluator, items);
+    launch(kernel, items);
+    if (launch(kernel, items).wall_s > slow_launch_s) kernel = stream_kernel(function, evaluator, items /= 4);
+    Entry entry;
+    entry.samples = static_cast<double>(items);
+    entry.launch = [this, kernel, items] { return launch(kernel, items); };
+    return entry;
+}
+
+Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluator) {
+    const Real real = evaluator.input_real();
+    const conformance::Point point = lobe(in_world_space(function));
+    cl::Kernel kernel(evaluator.program(), "vndf_compute");
+    cl_uint argument = 0;
+    for (std::size_t i = 0; i < function.inputs.size(); ++i, ++argument) {
+        const double value = point.scalar(function.inputs[i]);
+        if (!is_lobe(function.inputs[i]))
+            kernel.setArg(argument, input(function, i, real));
+        else if (real == Real::f32)
+            kernel.setArg(argument, static_cast<float>(value));
+        else
+            kernel.setArg(argument, value);
+    }
+    for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
+
+    const std::size_t work_items = shape_.groups * shape_.local;
+    std::size_t passes = shape_.chunk;
+    kernel.setArg(argument, static_cast<cl_uint>(passes));
+    launch(kernel, work_items);
+    while (launch(kernel, work_items).wall_s < compute_launch_s && passes < (std::size_t{1} << 24))
+        kernel.setArg(argument, static_cast<cl_uint>(passes *= 2));
+    Entry entry;
+    entry.samples = static_cast<double>(work_items * passes);
+    entry.launch = [this, kernel, work_items] { return launch(kernel, work_items); };
+    return entry;
+}
+
+// The fastest of the copies for so many arrays; registers it once.
+std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real) {
+    const std::size_t bytes = (reads + writes) * size_of(real);
+    const std::string name = fmt::format("copy_{}B{}{}/stream", bytes, writes == 1 ? "_value" : "",
+                                         real == Real::f64 ? "_double" : "");
+    const auto same = [&](const Entry& e) { return e.name == name; };
+    if (std::any_of(entries_.begin(), entries_.end(), same)) return name;
+    const std::size_t items = column_bytes / size_of(real);
+    Entry fastest;
+    double best_s = INFINITY;
+    for (const Copy copy : copies) {
+        runtime::ProgramOptions options;
+        options.root = "kernels/vndf/config.h";
+        options.functions = {"vndf_reflect"};
+        options.more_source = copy_source(copy, reads, writes, real);
+        options.context = context_;
+        evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, real, options));
+        cl::Kernel kernel(evaluators_.back()->program(), "vndf_copy");
+        cl_uint argument = 0;
+        for (std::size_t i = 0; i < reads; ++i) {
+            const std::string key = fmt::format("copy {}", i);
+            if (!inputs_.contains(key)) {
+                inputs_[key] = cl::Buffer(context_, CL_MEM_READ_WRITE, column_bytes);
+                queue_.enqueueFillBuffer(inputs_[key], 0.5f, 0, column_bytes);
+            }
+            kernel.setArg(argument++, inputs_[key]);
+        }
+        for (std::size_t i = 0; i < writes; ++i) kernel.setArg(argument++, output(i));
+        const std::size_t work_items = items / items_per_work_item(copy, real);
+        kernel.setArg(argument, static_cast<cl_uint>(work_items));
+        double fastest_s = INFINITY;
+        for (int i = 0; i < 4; ++i) fastest_s = std::min(fastest_s, launch(kernel, work_items).wall_s);
+        if (fastest_s >= best_s) continue;
+        best_s = fastest_s;
+        fastest.launch = [this, kernel, work_items] { return launch(kernel, work_items); };
+        fastest.label = fmt::format("{} copy, {} arrays to {}", to_string(copy), reads, writes);
+    }
+    fastest.name = name;
+    fastest.samples = static_cast<double>(items);
+    entries_.push_back(fastest);
+    return name;
+}
+
+// The part of a sampler's directions that are reflections above the surface.
+void Session::add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator) {
+    if (function.kind != Kind::sampler) return;
+    const conformance::Table& inputs = table(function, evaluator.input_real());
+    const auto results = conformance::evaluate(evaluator, function, inputs);
+    const std::vector<conformance::Point> all = points(distinct_rows, in_world_space(function));
+    std::size_t useful = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const conformance::Direction &wo = all[i].wo, &n = all[i].n;
+        const conformance::Direction d{results[0][i], results[1][i], results[2][i]};
+        const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+        const double cosine = dot(wo, d),
+                     height = function.result == "WI" ? dot(d, n) : 2 * cosine * dot(d, n) - dot(wo, n);
+        useful += height > 0 && (function.result == "WI" || cosine > 0);
+    }
+    entry.useful = static_cast<double>(useful) / static_cast<double>(all.size());
+}
+
+void Session::add_program(const Function& function, Math math, Real real, const std::string& policy,
+                          const std::string& root, const std::string& callee) {
+    translated(device_, function.name, [&] {
+        const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), real);
+        runtime::ProgramOptions options;
+        options.functions = {function.name};
+        options.root = root;
+        options.more_source = compute_source(function, callee, shape_);
+        options.context = context_;
+        for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
+        const double cold_s = build(function, math, real, options);
+        const double warm_s = build(function, math, real, options);  // from the driver's cache
+        DeviceEvaluator& evaluator = *evaluators_.back();
+        build_options_ = evaluator.build_options();
+        Entry stream = stream_entry(function, evaluator);
+        Entry compute = compute_entry(function, evaluator);
+        add_accuracy(stream, function, evaluator);
+        stream.figures["build_cold_s"] = cold_s;
+        stream.figures["build_warm_s"] = warm_s;
+        compute.figures = stream.figures;
+        compute.useful = stream.useful;
+        const std::string name = fmt::format("{}/{}/{}", function.name, policy, to_string(real));
+        stream.name = name + "/stream";
+        stream.copy = copy;
+        compute.name = name + "/compute";
+        if (is_published(function) && real == Real::f32) {
+            stream.published = function.name + "/published/float/stream";
+            compute.published = function.name + "/published/float/compute";
+        }
+        entries_.push_back(std::move(stream));
+        entries_.push_back(std::move(compute));
+    });
+}
+
+void Session::add(const Function& function, Math math, Real real) {
+    add_program(function, math, real, std::string(to_string(math)), "kernels/batch/batch.cl", function.name);
+}
+
+void Session::add_published(const Function& function) {
+    if (!is_published(function)) return;
+    add_program(function, Math::builtin, Real::f32, "published", "bench/published/batch.cl",
+                "published_" + function.name.substr(5));
+}
+
+void Session::add_cpp(const Function& function) {
+    const runtime::HostFunction callee = find_cpp_function(function.name.c_str());
+    const conformance::Point point = lobe(in_world_space(function));
+    for (const bool compute : {false, true}) {
+        // Compute-bound: one lobe and few rows, gone over again and again.
+        const std::size_t rows = compute ? shape_.local * shape_.chunk : column_bytes / sizeof(float) / 4;
+        const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+        const std::size_t passes = compute ? 2048 : 1;
+        using Array = std::vector<float>;
+        const auto arrays = std::make_shared<std::vector<Array>>();
+        for (std::size_t i = 0; i < function.inputs.size() + function.outputs.size(); ++i) {
+            Array& array = arrays->emplace_back(rows * (compute ? threads : 1));
+            if (i >= function.inputs.size()) continue;
+            const std::vector<double>& values = table(function, Real::f32).columns[i];
+            const bool lobe_value = compute && is_lobe(function.inputs[i]);
+            for (std::size_t row = 0; row < array.size(); ++row)
+                array[row] = static_cast<float>(lobe_value ? point.scalar(function.inputs[i])
+                                                           : values[row % values.size()]);
+        }
+        const auto work = [=, inputs = function.inputs.size()](unsigned thread) {
+            const std::size_t part = compute ? rows : rows / threads, first = part * thread;
+            std::vector<const void*> in;
+            std::vector<void*> out;
+            for (std::size_t i = 0; i < arrays->size(); ++i)
+                i < inputs ? in.push_back((*arrays)[i].data() + first)
+                           : out.push_back((*arrays)[i].data() + first);
+            for (std::size_t pass = 0; pass < passes; ++pass) callee(in.data(), out.data(), part);
+        };
+        Entry entry;
+        entry.name = fmt::format("{}/cpp/float/{}", function.name, compute ? "compute" : "stream");
+        entry.samples = static_cast<double>(rows * (compute ? threads * passes : 1));
+        entry.label = fmt::format("{} threads", threads);
+        entry.launch = [=] {
+            const auto start = Clock::now();
+            std::vector<std::jthread> workers;
+            for (unsigned thread = 0; thread < threads; ++thread) workers.emplace_back(work, thread);
+            workers.clear();
+            return Timing{seconds_since(start), 0};
+        };
+        const auto same = [&](const Entry& e) {
+            return e.name == fmt::format("{}/strict/float/stream", function.name);
+        };
+        if (const auto strict = std::find_if(entries_.begin(), entries_.end(), same);
+            strict != entries_.end()) {
+            entry.useful = strict->useful;
+            entry.figures = strict->figures;  // the same bits
+            entry.figures.erase("build_cold_s");
+            entry.figures.erase("build_warm_s");
+            if (!compute) entry.copy = strict->copy;
+        }
+        if (is_published(function))
+            entry.published =
+                fmt::format("{}/published/float/{}", function.name, compute ? "compute" : "stream");
+        entries_.push_back(std::move(entry));
+    }
+}
+
+}  // namespace vndf::bench

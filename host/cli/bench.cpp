@@ -1,0 +1,179 @@
+// clvndf bench
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "bench/measure.h"
+#include "bench/session.h"
+#include "cli/commands.h"
+#include "cli/output_file.h"
+#include "conformance/check.h"
+#include "error.h"
+
+namespace vndf::cli {
+namespace {
+
+using runtime::Math, runtime::Real;
+
+struct Bench {
+    std::string device, only, json, report, compare;
+    int repetitions = 15;
+};
+
+// Empty compiler caches for the drivers that have one on disk, so that the first build of a program is a cold one.
+// Drivers read these variables when they start, so it has to come before the first OpenCL call.
+class FreshCaches {
+  public:
+    FreshCaches() {
+        std::string name = (std::filesystem::temp_directory_path() / "clvndf-bench-XXXXXX").string();
+        if (!mkdtemp(name.data()))
+            throw InputError(fmt::format("{}: cannot create a temporary folder", name));
+        folder_ = name;
+        for (const char* variable :
+             {"POCL_CACHE_DIR", "CUDA_CACHE_PATH", "MESA_SHADER_CACHE_DIR", "NEO_CACHE_DIR"})
+            setenv(variable, folder_.c_str(), 1);
+    }
+    ~FreshCaches() {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    FreshCaches(const FreshCaches&) = delete;
+    FreshCaches& operator=(const FreshCaches&) = delete;
+
+  private:
+    std::filesystem::path folder_;
+};
+
+std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) throw InputError(fmt::format("{}: cannot read", path));
+    return text;
+}
+
+// A line on the terminal that is written over, and gone at the end.
+void show(bool shown, const std::string& text) {
+    if (shown) fmt::print(stderr, "\r\033[K{}", text), std::fflush(stderr);
+}
+
+void add_entries(bench::Session& session, const runtime::Device& device, const Function& function) {
+    for (const Real real : {Real::f32, Real::f64}) {
+        if (real == Real::f64 && !device.fp64) continue;
+        for (const Math math : {Math::strict, Math::builtin, Math::native})
+            if (real == Real::f32 || math != Math::native)
+                session.add(function, math, real);  // native means float
+    }
+    session.add_published(function);
+    session.add_cpp(function);
+}
+
+std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
+                                                         const bench::Session& session,
+                                                         const Bench& options) {
+    const auto yes_no = [](bool b) { return std::string(b ? "yes" : "no"); };
+    return {{"device", d.label()},
+            {"platform_version", d.platform_version},
+            {"driver_version", d.driver},
+            {"opencl_c_version", d.c_version},
+            {"build_options", session.build_options()},
+            {"fp64", yes_no(d.fp64)},
+            {"fma", yes_no(d.fma)},
+            {"denormals", yes_no(d.denormals)},
+            {"correctly_rounded_divide_sqrt", yes_no(d.correct_divide_sqrt)},
+            {"compute_units", std::to_string(d.compute_units)},
+            {"clock_mhz", std::to_string(d.clock_mhz)},
+            {"memory_bytes", std::to_string(d.memory_bytes)},
+            {"repetitions", std::to_string(options.repetitions)},
+            {"clvndf_version", CLVNDF_VERSION}};
+}
+
+std::string cell(const std::map<std::string, double>& counters, const std::string& name, const char* form) {
+    const auto found = counters.find(name);
+    return found == counters.end() ? "" : fmt::format(fmt::runtime(form), found->second);
+}
+
+void print_table(const std::vector<bench::Result>& results, const std::vector<bench::Result>& baseline) {
+    std::size_t width = 5;
+    for (const bench::Result& r : results) width = std::max(width, r.name.size());
+    std::map<std::string, double> before;
+    for (const bench::Result& r : baseline) before[r.name] = r.best_ns;
+    fmt::print("{:{}} {:>9} {:>9} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}{}\n", "entry", width, "best ns",
+               "median", "useful", "of copy", "published", "err p50", "err p99", "err max",
+               before.empty() ? "" : "  baseline");
+    for (const bench::Result& r : results) {
+        fmt::print("{:{}} {:9.3f} {:9.3f} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}", r.name, width, r.best_ns,
+                   r.median_ns, cell(r.counters, "ns_per_useful_sample", "{:.3f}"),
+                   cell(r.counters, "fraction_of_copy", "{:.2f}"),
+                   cell(r.counters, "speedup_over_published", "{:.1f} x"),
+                   cell(r.counters, "err_p50", "{:.2g}"), cell(r.counters, "err_p99", "{:.2g}"),
+                   cell(r.counters, "err_max", "{:.2g}"));
+        if (before.contains(r.name)) fmt::print("  {:.2f} x", r.best_ns / before[r.name]);
+        fmt::print("\n");
+    }
+    fmt::print(
+        "Nanoseconds a sample, wall clock, best and median of the repetitions, all entries interleaved. of "
+        "copy: time of "
+        "the fastest plain copy of as many bytes over this time; published: time of the published listing "
+        "ported line by "
+        "line over this time; err: in 2^-24 (double: 2^-53) times 1 + condition number.\n");
+    if (!before.empty()) fmt::print("baseline: this time over the baseline's.\n");
+}
+
+void run_bench(const Bench& options, Common& common) {
+    const auto selected = conformance::select(options.only);
+    if (selected.empty())
+        throw InputError(
+            fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
+                        options.only, fmt::join(nearest_names(options.only), ", ")));
+    std::vector<bench::Result> baseline;
+    if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
+    std::optional<OutputFile> json;
+    if (!options.json.empty()) json.emplace(options.json);
+
+    const FreshCaches caches;
+    Target target;
+    target.device = options.device;
+    const runtime::Device device = target.choose(common);
+    const bool shown = !common.quiet && isatty(STDERR_FILENO);
+    bench::Session session(device);
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+        show(shown, fmt::format("building {} of {}: {}", i + 1, selected.size(), selected[i]->name));
+        add_entries(session, device, *selected[i]);
+    }
+    const bench::Measurement measurement =
+        bench::measure(session.entries(), options.repetitions, context(device, session, options),
+                       [&](double done) { show(shown, fmt::format("{:3.0f}%  measuring", 100 * done)); });
+    show(shown, "");
+    if (json) json->write(measurement.json), json->commit();
+    if (options.json != "-") print_table(measurement.results, baseline);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, Common& common) {
+    const auto options = std::make_shared<Bench>();
+    CLI::App* command = app.add_subcommand(
+        "bench",
+        "time of every function in every policy, beside the published listings, C++ and plain copies");
+    command->add_option("--device", options->device,
+                        "first device whose platform or device name contains this");
+    command->add_option("--only", options->only,
+                        "only functions whose name contains this, or matches it with * and ?");
+    command->add_option("--repetitions", options->repetitions, "how often each entry is measured")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str();
+    command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
+    command->add_option("--compare", options->compare, "show times relative to those of this JSON file");
+    command->callback([options, &common] { run_bench(*options, common); });
+}
+
+}  // namespace vndf::cli
