@@ -8,6 +8,21 @@
 
 #include "ggx.h"
 
+// n x w, each component with the error of one rounding.
+struct vndf_impl_vector {
+    VNDF_REAL x, y, z;
+};
+VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
+    struct vndf_impl_vector c;
+    c.x = vndf_impl_difference_of_products(n.y, w.z, n.z, w.y);
+    c.y = vndf_impl_difference_of_products(n.z, w.x, n.x, w.z);
+    c.z = vndf_impl_difference_of_products(n.x, w.y, n.y, w.x);
+    return c;
+}
+VNDF_FN VNDF_REAL vndf_impl_length(struct vndf_impl_vector c) {
+    return VNDF_SQRT(VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z)));
+}
+
 // Half a turn about w = n + sigma takes sigma to n. Only the unit vector of the cap's azimuth is turned,
 // which gives a vector across n; the height is added along n and alpha wo's part across n as it is: nothing
 // is projected on n again.
@@ -15,12 +30,12 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
                                                           VNDF_REAL2 u) {
     VNDF_REAL alpha = vndf_impl_alpha(alpha_scalar);
     VNDF_REAL z = vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z);
-    VNDF_REAL vx = alpha * VNDF_FMA(-z, n.x, wo.x), vy = alpha * VNDF_FMA(-z, n.y, wo.y),
-              vz = alpha * VNDF_FMA(-z, n.z, wo.z);
-    // The stretched direction in a frame whose tangential part is (l, 0).
-    VNDF_REAL k = VNDF_R(134217728.0), kx = vx * k, ky = vy * k, kz = vz * k;
-    VNDF_REAL across =
-        VNDF_SQRT(VNDF_FMA(kx, kx, VNDF_FMA(ky, ky, kz * kz))) * VNDF_R(7.450580596923828125e-09);
+    // wo's part across n is (n x wo) x n: wo - z n would leave the rounding of |n| along n, where wo is near +-n.
+    struct vndf_impl_vector c = vndf_impl_cross(n, wo);
+    VNDF_REAL vx = alpha * VNDF_FMA(c.y, n.z, -c.z * n.y), vy = alpha * VNDF_FMA(c.z, n.x, -c.x * n.z),
+              vz = alpha * VNDF_FMA(c.x, n.y, -c.y * n.x);
+    // The stretched direction in a frame whose tangential part is (across, 0).
+    VNDF_REAL across = alpha * vndf_impl_length(c);
     struct vndf_impl_view v = vndf_impl_view_of(across, VNDF_R(0.0), z);
     struct vndf_impl_cap cap = vndf_impl_cap_of(v);
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
@@ -69,14 +84,6 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_benyoub2024_with_pdf(VNDF_REAL3 wo, VNDF_R
     return vndf_impl_direction_pdf(vndf_impl_ggx_benyoub2024(wo, n, alpha, u));
 }
 
-// |n x w|, each component with the error of one rounding.
-VNDF_FN VNDF_REAL vndf_impl_cross_length(VNDF_REAL3 n, VNDF_REAL3 w) {
-    VNDF_REAL x = vndf_impl_difference_of_products(n.y, w.z, n.z, w.y);
-    VNDF_REAL y = vndf_impl_difference_of_products(n.z, w.x, n.x, w.z);
-    VNDF_REAL z = vndf_impl_difference_of_products(n.x, w.y, n.y, w.x);
-    return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));
-}
-
 // The distribution of visible normals about n.
 // Source: Dupuy & Benyoub 2023, Equation 1, for alpha_x = alpha_y in the frame of n, whose z components are
 //     dot products with n and whose tangential lengths are those of cross products with n.
@@ -89,8 +96,9 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_
     VNDF_REAL wm_z = vndf_impl_dot(wm.x, wm.y, wm.z, n.x, n.y, n.z);
     VNDF_REAL wo_z = vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z);
     VNDF_REAL a = vndf_impl_alpha(alpha);
-    VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(vndf_impl_cross_length(n, wo), VNDF_R(0.0), wo_z, a, a);
-    VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_cross_length(n, wm), VNDF_R(0.0), wm_z, a, a);
+    VNDF_REAL twice_sigma =
+        vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
+    VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(n, wm)), VNDF_R(0.0), wm_z, a, a);
     VNDF_REAL pdf = (VNDF_2_PI / ((q * a) * (q * a))) * (cos_om / twice_sigma);
     int visible = wm_z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);

@@ -66,10 +66,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(VNDF_REAL3 wo, VNDF
     VNDF_REAL dn = n1 - big_u * VNDF_FMA(VNDF_R(0.5477), w, VNDF_R(0.18599));
     VNDF_REAL dd = -VNDF_FMA(VNDF_FMA(VNDF_R(-0.279219), w, VNDF_R(1.177278)), w, VNDF_R(0.101941));
     VNDF_REAL slope_density = VNDF_R(0.5) * d * d / VNDF_FMA(dn, d, -n * dd);
-    // Homogeneous in (z, 1) = (N, D) / D.
-    VNDF_REAL rcp_d = VNDF_R(1.0) / d, across = n * rcp_d;
-    struct vndf_impl_sample m =
-        vndf_impl_ggx_slope_normal(i, upper ? across : -across, VNDF_R(1.0), VNDF_PI * slope_density);
+    VNDF_REAL across = n / d, length2 = VNDF_FMA(across, across, VNDF_R(1.0));
+    struct vndf_impl_sample m = vndf_impl_ggx_slope_normal(i, upper ? across : -across, VNDF_R(1.0),
+                                                           VNDF_PI * slope_density * length2 * length2);
     return vndf_impl_where(i.z >= VNDF_R(0.0), m);
 }
 
