@@ -72,7 +72,8 @@ void add_seed(CLI::App& app, Common& common) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals");
+    CLI::App app("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals",
+                 "clvndf");
     app.set_version_flag("--version", "clvndf " CLVNDF_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
