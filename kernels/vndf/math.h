@@ -79,7 +79,7 @@ VNDF_FN VNDF_REAL vndf_impl_sin_2pi(VNDF_REAL x) {
 #if VNDF_IMPL_STRICT
     VNDF_REAL z = x * x;
     VNDF_IMPL_SIN_2PI(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    return p * x;
+    return VNDF_FMA(x, VNDF_R(4.0), p * x);
 #elif VNDF_IMPL_NATIVE
     return native_sin(VNDF_R(2.0) * VNDF_PI * x);
 #elif defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
@@ -202,7 +202,7 @@ VNDF_FN VNDF_REAL vndf_impl_erf(VNDF_REAL x) {
     VNDF_REAL z = y * y;
     VNDF_IMPL_ERF(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL far = VNDF_R(1.0) - vndf_impl_erfc(y);
-    return y <= VNDF_R(0.5) ? p * x : (x < VNDF_R(0.0) ? -far : far);
+    return y <= VNDF_R(0.5) ? VNDF_FMA(x, VNDF_R(1.125), p * x) : (x < VNDF_R(0.0) ? -far : far);
 #else
     return VNDF_IMPL_STD(erf)(x);
 #endif

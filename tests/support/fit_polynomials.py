@@ -21,11 +21,31 @@ def round_to(x, real):
     return mpf(struct.unpack("f", struct.pack("f", float(x)))[0])
 
 
+def alternating_extrema(error, count):
+    """The `count` largest extrema of alternating sign, in order; None if there are fewer."""
+    extrema = []
+    for k in range(len(error)):
+        if extrema and (error[k] > 0) == (error[extrema[-1]] > 0):
+            if abs(error[k]) > abs(error[extrema[-1]]):
+                extrema[-1] = k
+        else:
+            extrema.append(k)
+    while len(extrema) > count:
+        size = [abs(error[k]) for k in extrema]
+        if len(extrema) == count + 1:
+            extrema.pop(0 if size[0] < size[-1] else -1)
+        else:
+            pair = min(range(len(extrema) - 1), key=lambda k: max(size[k], size[k + 1]))
+            del extrema[pair : pair + 2]
+    return extrema if len(extrema) == count else None
+
+
 def solve_minimax(powers, target, weight, basis):
     """Coefficients of sum c_j z^powers[j] that level |weight (target - sum)| over the grid; and the level."""
     count = len(powers)
     size = len(target)
     chosen = [round((size - 1) * (1 - mp.cos(mp.pi * k / count)) / 2) for k in range(count + 1)]
+    best = None
     for _ in range(30):
         system = mp.matrix(count + 1, count + 1)
         right = mp.matrix(count + 1, 1)
@@ -39,21 +59,14 @@ def solve_minimax(powers, target, weight, basis):
         error = [
             weight[k] * (target[k] - mp.fdot(coefficients, [basis[k][power] for power in powers])) for k in range(size)
         ]
-        # The new points: the extremum of each run of equal sign, thinned from the ends to an alternating set.
-        extrema = []
-        for k in range(size):
-            if extrema and (error[k] > 0) == (error[extrema[-1]] > 0):
-                if abs(error[k]) > abs(error[extrema[-1]]):
-                    extrema[-1] = k
-            else:
-                extrema.append(k)
-        while len(extrema) > count + 1:
-            extrema.pop(0 if abs(error[extrema[0]]) < abs(error[extrema[-1]]) else -1)
         worst = max(abs(e) for e in error)
-        if len(extrema) < count + 1 or extrema == chosen or worst < abs(solution[count]) * mpf("1.01"):
+        if best is None or worst < best[1]:
+            best = coefficients, worst
+        extrema = alternating_extrema(error, count + 1)
+        if extrema is None or extrema == chosen or worst < abs(solution[count]) * mpf("1.001"):
             break
         chosen = extrema
-    return coefficients, worst
+    return best
 
 
 def fit(case, degree, real):
@@ -174,24 +187,26 @@ def piece(function, float_interval, double_interval, weight=relative):
 
 # Each case: one polynomial, or several over adjoining intervals whose coefficients are selected together.
 CASES = [
-    dict(name="SIN_2PI", what="sin(2 pi x) / x in z = x^2, |x| <= 1/4", kind="relative",
+    dict(name="SIN_2PI", what="sin(2 pi x) / x - 4 in z = x^2, |x| <= 1/4", kind="relative to sin(2 pi x) / x",
          degree=dict(float=4, double=9),
-         pieces=[piece(lambda z: mp.sin(2 * mp.pi * mp.sqrt(z)) / mp.sqrt(z), (mpf("1e-30"), mpf(1) / 16),
-                       (mpf("1e-30"), mpf(1) / 16))]),
+         pieces=[piece(lambda z: mp.sin(2 * mp.pi * mp.sqrt(z)) / mp.sqrt(z) - 4,
+                       *[(mpf("1e-30"), mpf(1) / 16)] * 2, lambda z, f: 1 / (f + 4))]),
     dict(name="LOG", what="(log((1 + s) / (1 - s)) - 2 s) / s^3 in z = s^2, |s| <= 3 - 2 sqrt(2)",
          kind="relative to the logarithm", degree=dict(float=2, double=6),
          pieces=[piece(log_tail, *[(mpf(0), (3 - 2 * mp.sqrt(2)) ** 2)] * 2, lambda z, f: z / (2 + z * f))]),
     dict(name="EXP", what="(exp(z) - 1 - z) / z^2, |z| <= log(2) / 2", kind="relative to exp(z)",
          degree=dict(float=4, double=9),
          pieces=[piece(exp_tail, *[(-mp.log(2) / 2, mp.log(2) / 2)] * 2, lambda z, f: z * z / mp.exp(z))]),
-    dict(name="ERF", what="erf(x) / x in z = x^2, |x| <= 1/2", kind="relative", degree=dict(float=4, double=9),
-         pieces=[piece(lambda z: mp.erf(mp.sqrt(z)) / mp.sqrt(z), *[(mpf("1e-30"), mpf(1) / 4)] * 2)]),
+    dict(name="ERF", what="erf(x) / x - 9/8 in z = x^2, |x| <= 1/2", kind="relative to erf(x) / x",
+         degree=dict(float=4, double=9),
+         pieces=[piece(lambda z: mp.erf(mp.sqrt(z)) / mp.sqrt(z) - mpf("1.125"), *[(mpf("1e-30"), mpf(1) / 4)] * 2,
+                       lambda z, f: 1 / (f + mpf("1.125")))]),
     dict(name="ERFCX", what="erfcx(x) (1 + sqrt(pi) x + 2 x^2) / (1 + 2 x / sqrt(pi)) in z = (x - 2) / (x + 2), x >= 0",
-         kind="relative", degree=dict(float=11, double=25),
+         kind="relative", degree=dict(float=12, double=27),
          pieces=[piece(lambda z: erfcx(half_line(z)) * flattened(half_line(z)) /
                        (1 + 2 * half_line(z) / mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
     dict(name="IERFCX", what="(1 - sqrt(pi) x erfcx(x)) (1 + sqrt(pi) x + 2 x^2) in z = (x - 2) / (x + 2), x >= 0",
-         kind="relative", degree=dict(float=11, double=27),
+         kind="relative", degree=dict(float=13, double=29),
          pieces=[piece(lambda z: ierfcx(half_line(z)) * flattened(half_line(z)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
     dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then R / sqrt(w) in"
          " z = 1 / sqrt(w) - 1/4, w <= 88 (float), 40 (double); last (double) in z = 1 / sqrt(w) - 1/10, w <= 744",
