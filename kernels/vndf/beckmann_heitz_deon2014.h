@@ -16,12 +16,15 @@ struct vndf_impl_folded_slope {
 // lies in |x| < a, both signs at once. One logarithm and one erfinv serve all branches: what they take is selected first.
 VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_incidence_slopes i,
                                                               VNDF_REAL u1, VNDF_REAL u2) {
-    struct vndf_impl_folded_slope r;
+    struct vndf_impl_folded_slope fold;
     VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
     VNDF_REAL within = vndf_impl_erf(i.a);
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, plateau = VNDF_R(0.5) * i.c * beyond;
     VNDF_REAL mass = u1 * i.sigma;
-    int far = mass <= edge, outer = mass <= edge + plateau;
+    // Above u1 = 1/2, 1 - mass / edge keeps the digits of 1 - u1.
+    int shallow = u1 > VNDF_R(0.5);
+    VNDF_REAL r = (VNDF_FMA(VNDF_R(1.0) - u1, i.sigma, plateau) - i.c) / edge;
+    int far = shallow ? r >= VNDF_R(0.0) : mass <= edge, outer = far || mass <= edge + plateau;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
     VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.sigma / (i.c * within);
@@ -33,9 +36,11 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     // |x| = erfinv(p) with p = 1 - q; for the edge, sqrt(a^2 - log(mass / edge)).
     VNDF_REAL q = outer ? (mass - edge) / plateau * beyond : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
-    VNDF_REAL w = -vndf_impl_log(far ? mass / edge : q * (VNDF_R(1.0) + p));
+    VNDF_REAL rest = shallow ? VNDF_R(1.0) - r : mass / edge;
+    VNDF_REAL w = -vndf_impl_log(far ? rest : q * (VNDF_R(1.0) + p));
     VNDF_REAL size = p * vndf_impl_erfinv_ratio_of_log(w);
-    size = far ? VNDF_SQRT(VNDF_FMA(i.a, i.a, w)) : size;
+    w -= shallow ? ((VNDF_R(1.0) - rest) - r) / rest : VNDF_R(0.0);
+    size = far ? VNDF_SQRT(VNDF_FMA(i.a, i.a, vndf_impl_max(w, VNDF_R(0.0)))) : size;
     VNDF_REAL x = outer || left ? -size : size;
 
     // The sign of x by its share of the projected area.
@@ -44,10 +49,10 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     int mirror = u2 > keep;
     VNDF_REAL rcp = VNDF_R(1.0) / (mirror ? swap : keep);
     VNDF_REAL low = mirror ? u2 - keep : u2, high = mirror ? VNDF_R(1.0) - u2 : keep - u2;
-    r.x = !outer && mirror ? -x : x;
-    r.u2 = outer ? u2 : low * rcp;
-    r.v2 = outer ? VNDF_R(1.0) - u2 : high * rcp;
-    return r;
+    fold.x = !outer && mirror ? -x : x;
+    fold.u2 = outer ? u2 : low * rcp;
+    fold.v2 = outer ? VNDF_R(1.0) - u2 : high * rcp;
+    return fold;
 }
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha,

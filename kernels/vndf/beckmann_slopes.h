@@ -4,7 +4,7 @@
 // towards the view direction, and the distance y = t + a > 0 from the edge of the visible. The density of t is
 // s y e^(-t^2) / (sqrt(pi) sigma); with I of beckmann.h, the distribution function of x = -t is
 //     C = [s y sqrt(pi) erfcx(t) + s I(t)] e^(-t^2) / (2 sqrt(pi) sigma),
-// all terms positive for t > 0. Masses above 1/2 are replaced by their complements, also formed without cancellation.
+// all terms positive for t > 0. Masses above 3/4 are replaced by their complements, also formed without cancellation.
 #ifndef VNDF_BECKMANN_SLOPES_H
 #define VNDF_BECKMANN_SLOPES_H
 
@@ -72,38 +72,29 @@ VNDF_FN struct vndf_impl_slope_square vndf_impl_slope_square_of(struct vndf_impl
 }
 
 // 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J (y / reach)^2, for |2 a y| <= 1 and
-// y <= 0.6: sum of 2 H_n(a) y^n / (n! (n + 2)). The first omitted term is below 2^-25 (double: 2^-54).
-VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y) {
-    VNDF_REAL w = VNDF_R(2.0) * y * y, before = VNDF_R(1.0), g = two_ay, next;
+// y <= 0.55: the sum of 2 H_n(a) y^n / (n! (n + 2)), of which the first omitted is below 2^-25 (double: 2^-54). Not `exact`,
+// it is good to 1e-3.
+VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact) {
+    VNDF_REAL w = VNDF_R(-2.0) * y * y, before = VNDF_R(1.0), g = two_ay, next;
     VNDF_REAL sum = VNDF_FMA(VNDF_R(0.66666666666666666667), g, VNDF_R(1.0));
-#define VNDF_IMPL_TERM(n)                                                \
-    next = VNDF_FMA(two_ay, g, -w * before) * (VNDF_R(1.0) / VNDF_R(n)); \
-    before = g;                                                          \
-    g = next;                                                            \
+#define VNDF_IMPL_TERM(n)                                               \
+    next = VNDF_FMA(two_ay, g, w * before) * (VNDF_R(1.0) / VNDF_R(n)); \
+    before = g;                                                         \
+    g = next;                                                           \
     sum = VNDF_FMA(VNDF_R(2.0) / (VNDF_R(n) + VNDF_R(2.0)), g, sum);
-    VNDF_IMPL_TERM(2.0)
-    VNDF_IMPL_TERM(3.0)
-    VNDF_IMPL_TERM(4.0)
-    VNDF_IMPL_TERM(5.0)
+    VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0) VNDF_REAL rough = sum;
     VNDF_IMPL_TERM(6.0)
-    VNDF_IMPL_TERM(7.0)
-    VNDF_IMPL_TERM(8.0)
-    VNDF_IMPL_TERM(9.0)
+        VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0)
+            VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
-    VNDF_IMPL_TERM(10.0)
-    VNDF_IMPL_TERM(11.0)
-    VNDF_IMPL_TERM(12.0)
-    VNDF_IMPL_TERM(13.0)
-    VNDF_IMPL_TERM(14.0)
-    VNDF_IMPL_TERM(15.0)
-    VNDF_IMPL_TERM(16.0)
-    VNDF_IMPL_TERM(17.0)
-    VNDF_IMPL_TERM(18.0)
-    VNDF_IMPL_TERM(19.0)
-    VNDF_IMPL_TERM(20.0)
+                VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
+                    VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
+                        VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
 #endif
 #undef VNDF_IMPL_TERM
-    return sum;
+                            return exact
+        ? sum
+        : rough;
 }
 
 // The mass C beyond t (upper: 1 - C, on this side of it), and the density of t.
@@ -113,7 +104,7 @@ struct vndf_impl_slope_mass {
 };
 VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_incidence_slopes i,
                                                             struct vndf_impl_slope_origin o, VNDF_REAL offset,
-                                                            int upper) {
+                                                            int upper, int exact) {
     struct vndf_impl_slope_mass r;
     VNDF_REAL t = o.base + offset, x = vndf_impl_abs(t);
     VNDF_REAL projection = vndf_impl_slope_projection(i, o, offset);
@@ -127,8 +118,8 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
     // Next to the edge 1 - C is a difference of nearly equal terms.
     VNDF_REAL two_ay = VNDF_R(-2.0) * o.base * offset, ratio = offset / i.reach;
-    VNDF_REAL near = ratio * ratio * vndf_impl_edge_series(two_ay, offset);
-    int series = upper && o.edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.6);
+    VNDF_REAL near = ratio * ratio * vndf_impl_edge_series(two_ay, offset, exact);
+    int series = upper && o.edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
     r.mass = series ? near : mass;
     r.density = VNDF_1_SQRT_PI * projection * e;
     r.bend = i.s / projection - VNDF_R(2.0) * t;
@@ -161,7 +152,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
     VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
     struct vndf_impl_slope_origin o = vndf_impl_slope_origin_of(i, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, o, i.front ? -x : visible / sine, 0).mass;
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, o, i.front ? -x : visible / sine, 0, 1).mass;
     return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? cdf : VNDF_R(1.0);
 }
 
@@ -205,23 +196,21 @@ VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_start(struct vndf_impl_incid
 }
 
 // One step: Halley's on the logarithm of the mass over k, near 1 equal to 2 (m - k) / (m + k). `low` and `high` bracket
-// the root (<=: a converged root lies on the bracket); a step that leaves them bisects.
+// the root; a step that leaves them goes half way.
 VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_step(struct vndf_impl_incidence_slopes i,
                                                          struct vndf_impl_slope_origin o, VNDF_REAL k,
-                                                         int upper, struct vndf_impl_slope_root root) {
-    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, root.offset, upper);
+                                                         int upper, int exact,
+                                                         struct vndf_impl_slope_root root) {
+    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, root.offset, upper, exact);
     VNDF_REAL excess = upper ? k - m.mass : m.mass - k;
-    int below = excess > VNDF_R(0.0);
-    root.low = below ? root.offset : root.low;
-    root.high = below ? root.high : root.offset;
     VNDF_REAL rate = m.density / m.mass;
     VNDF_REAL newton = VNDF_R(2.0) * excess / ((m.mass + k) * rate);
     VNDF_REAL curvature = m.bend + (upper ? -rate : rate);
     VNDF_REAL denominator = VNDF_FMA(VNDF_R(0.5) * newton, curvature, VNDF_R(1.0));
     denominator = vndf_impl_min(vndf_impl_max(denominator, VNDF_R(0.5)), VNDF_R(2.0));
     VNDF_REAL next = root.offset + newton / denominator;
-    int inside = next >= root.low && next <= root.high;
-    root.offset = inside ? next : VNDF_R(0.5) * (root.low + root.high);
+    VNDF_REAL end = next < root.low ? root.low : root.high;
+    root.offset = next >= root.low && next <= root.high ? next : VNDF_R(0.5) * (root.offset + end);
     return root;
 }
 
@@ -233,19 +222,20 @@ struct vndf_impl_slope_found {
 VNDF_FN struct vndf_impl_slope_found vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i,
                                                              VNDF_REAL u) {
     struct vndf_impl_slope_found found;
-    int upper = u > VNDF_R(0.5);
+    int upper = u > VNDF_R(0.75);
     VNDF_REAL k = upper ? VNDF_R(1.0) - u : u;
     found.origin = vndf_impl_slope_origin_of(i, upper);
     struct vndf_impl_slope_root root = vndf_impl_slope_start(i, found.origin, u);
 #ifdef VNDF_STEPS
-    for (int j = 0; j < VNDF_STEPS; ++j) root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+    for (int j = 0; j < VNDF_STEPS; ++j)
+        root = vndf_impl_slope_step(i, found.origin, k, upper, j >= VNDF_STEPS - 2, root);
 #else
-    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
-    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
-    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+    root = vndf_impl_slope_step(i, found.origin, k, upper, 0, root);
+    root = vndf_impl_slope_step(i, found.origin, k, upper, 0, root);
 #if VNDF_DOUBLE
-    root = vndf_impl_slope_step(i, found.origin, k, upper, root);
+    root = vndf_impl_slope_step(i, found.origin, k, upper, 1, root);
 #endif
+    root = vndf_impl_slope_step(i, found.origin, k, upper, 1, root);
 #endif
     found.offset = root.offset;
     return found;
