@@ -1,0 +1,140 @@
+// On PoCL's CPU device every entry point is turned into vector code across work-items. One innocent edit can undo that
+// and cost a factor of five, with every result still right; so this reads what the vectoriser says.
+//
+// POCL_VECTORIZER_REMARKS prints remarks while a kernel is compiled, none from a warm cache, and is read once when PoCL
+// starts: a child process compiles everything with an empty cache. Remarks on loops name no kernel, but those of the
+// inliner before them do, and kernels are compiled one after the other.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <unistd.h>
+
+#include "runtime/device_evaluator.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace vndf;
+
+const std::string own_root = "kernels/batch/batch.cl", published_root = "bench/published/batch.cl";
+
+// Functions whose entry points are not vectorised on PoCL 3.1, each with the reason.
+const std::map<std::string, std::string> exceptions = {};
+
+struct Remarks {
+    int vectorised = 0;
+    std::vector<std::string> failures;
+};
+
+// By the name of the function: what was said about the loops of its entry point.
+std::map<std::string, Remarks> parse(const std::string& text) {
+    constexpr std::string_view kernel = "inlined into 'vndf_batch_",
+                               success = "vectorized loop (vectorization width: ",
+                               failure = "loop not vectorized: ";
+    std::map<std::string, Remarks> all;
+    Remarks* current = nullptr;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const std::string_view rest = std::string_view(text).substr(at);
+        if (rest.starts_with(kernel)) {
+            const std::size_t begin = kernel.size();
+            current = &all[std::string(rest.substr(begin, rest.find('\'', begin) - begin))];
+        } else if (current && rest.starts_with(success)) {
+            ++current->vectorised;
+        } else if (current && rest.starts_with(failure)) {
+            current->failures.emplace_back(rest.substr(0, rest.find('<')));
+        }
+    }
+    return all;
+}
+
+// Everything that a process prints which compiles the program at `root` with remarks.
+std::string remarks(const std::string& root) {
+    std::string folder = (std::filesystem::temp_directory_path() / "clvndf-remarks-XXXXXX").string();
+    REQUIRE(mkdtemp(folder.data()));
+    const std::string command = "POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR='" + folder +
+                                "' CLVNDF_REMARKS_ROOT='" + root + "' '" +
+                                std::filesystem::read_symlink("/proc/self/exe").string() +
+                                "' 'compiles every entry point' >'" + folder + "/remarks' 2>&1";
+    const int status = std::system(command.c_str());
+    std::ifstream file(folder + "/remarks", std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::filesystem::remove_all(folder);
+    INFO(text.substr(text.size() - std::min<std::size_t>(text.size(), 2000)));
+    REQUIRE(status == 0);
+    return text;
+}
+
+bool on_pocl() {
+    if (runtime::choose_device().device.platform == "Portable Computing Language") return true;
+    WARN("the vectoriser's remarks are PoCL's; the chosen device is another's, and nothing is tested");
+    return false;
+}
+
+bool vectorised(const Remarks& remarks) {
+    return remarks.vectorised > 0 && remarks.failures.empty();
+}
+
+// The functions whose entry points are not vectorised, one a line, with the first reason given.
+std::string not_vectorised(const std::map<std::string, Remarks>& all) {
+    std::string names;
+    for (const auto& [name, remarks] : all) {
+        if (vectorised(remarks)) continue;
+        names += name + ": " + (remarks.failures.empty() ? "no remark on a loop" : remarks.failures.front()) +
+                 "\n";
+    }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("compiles every entry point", "[.]") {
+    const char* root = std::getenv("CLVNDF_REMARKS_ROOT");
+    if (!root) return;  // not the child process of remarks()
+    runtime::ProgramOptions options;
+    options.root = root;
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict,
+                                       runtime::Real::f32, options);
+    for (const Function& function : functions()) {
+        if (root == published_root && evaluator.program().getInfo<CL_PROGRAM_KERNEL_NAMES>().find(
+                                          "vndf_batch_" + function.name + ";") == std::string::npos)
+            continue;
+        std::vector<std::vector<float>> arrays(function.inputs.size() + function.outputs.size(),
+                                               std::vector<float>(64, 0.5f));
+        std::vector<const void*> inputs;
+        std::vector<void*> outputs;
+        for (std::size_t i = 0; i < arrays.size(); ++i)
+            i < function.inputs.size() ? inputs.push_back(arrays[i].data())
+                                       : outputs.push_back(arrays[i].data());
+        evaluator.run(function, 64, inputs, outputs);
+    }
+}
+
+TEST_CASE("every entry point is vectorised across work-items on PoCL") {
+    if (!on_pocl()) return;
+    auto all = parse(remarks(own_root));
+    for (const Function& function : functions()) all[function.name];  // without remarks: not vectorised
+    for (const auto& [name, reason] : exceptions) {
+        INFO(name << " is an exception: " << reason);
+        REQUIRE(find_function(name));
+        CHECK_FALSE(vectorised(all[name]));
+        all.erase(name);
+    }
+    CHECK(not_vectorised(all) == "");
+}
+
+TEST_CASE("the published listings, ported line by line, are not vectorised, and the test sees it") {
+    if (!on_pocl()) return;
+    const auto all = parse(remarks(published_root));
+    CHECK(all.size() == 7);
+    for (const auto& [name, remarks] : all) {
+        INFO(name);
+        CHECK_FALSE(vectorised(remarks));
+        CHECK_FALSE(remarks.failures.empty());
+    }
+}
