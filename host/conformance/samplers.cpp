@@ -8,6 +8,7 @@
 #include "conformance/parallel.h"
 #include "conformance/rows.h"
 
+#include "conformance/values.h"
 namespace vndf::conformance {
 namespace {
 
@@ -90,6 +91,19 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
     for (std::size_t i = 1; i < parts.size(); ++i) parts[0].merge(parts[i]);
     return parts[0];
 }
+Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
+    if (function.kind != Kind::sampler) return value_errors(evaluator, function, table);
+    const Columns results = evaluate(evaluator, function, table);
+    const Real real = evaluator.input_real();
+    // A _with_pdf form returns the plain form's direction first.
+    const std::string plain = function.name.substr(0, function.name.find("_with_pdf"));
+    const Function& sampler = *find_function(plain);
+    MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
+                                         : map_errors<long double>(sampler, table, results, real);
+    errors.front.merge(errors.back);
+    return errors.front;
+}
+
 
 }  // namespace
 

@@ -25,6 +25,10 @@ std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Functio
                                     const PointwiseOptions& options);
 
 // Hard and random points as a table.
+// The errors of a function of any kind at the rows of `table`, wherever it is judged, in the unit of its checks: the
+// angle of a direction (front or back), the relative error of anything else.
+Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table);
+
 Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);
 
 }  // namespace vndf::conformance

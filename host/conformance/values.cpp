@@ -89,7 +89,7 @@ double error_at(const Judge& j, std::size_t i) {
 }
 
 template <class R>
-Errors value_errors(const Judge& judge) {
+Errors judged_errors(const Judge& judge) {
     std::vector<Errors> parts(thread_count());
     parallel_for(judge.table.rows(), 256, [&](unsigned thread, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -109,7 +109,14 @@ std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function&
     const Table table = pointwise_table(function, real, options);
     const auto results = evaluate(evaluator, function, table);
     const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
-    const Errors errors = real == Real::f32 ? value_errors<double>(judge) : value_errors<long double>(judge);
+Errors value_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
+    const Real real = evaluator.input_real();
+    const auto results = evaluate(evaluator, function, table);
+    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    return real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
+}
+
+    const Errors errors = real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
     Errors bad;
     for (std::size_t i = 0; i < table.rows(); ++i)
         for (const auto& column : results)

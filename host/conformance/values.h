@@ -12,6 +12,9 @@ namespace vndf::conformance {
 std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
                                   const PointwiseOptions& options);
 
+// Its errors at the rows of `table` that are judged, in the unit of that check.
+Errors value_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table);
+
 // The integral of a density over the sphere, lobe by lobe, by quadrature of the evaluator's values: 1.
 std::vector<Finding> check_normalisation(runtime::Evaluator& evaluator, const Function& density,
                                          const PointwiseOptions& options);
