@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <future>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include "conformance/grids.h"
 #include "conformance/known_bias.h"
 #include "conformance/lobes.h"
+#include "conformance/parallel.h"
 #include "conformance/samplers.h"
 #include "conformance/values.h"
 
@@ -73,14 +75,14 @@ class Drawer {
 // Keeps, for each kind of test, the worst lobe.
 class WorstLobes {
   public:
-    explicit WorstLobes(const Function& sampler) : sampler_(sampler) {}
+    WorstLobes(const Function& sampler, double level) : sampler_(sampler), level_(level) {}
 
-    void add(const std::vector<LobeTest>& tests, const std::vector<double>& row, double level) {
+    void add(const std::vector<LobeTest>& tests, const std::vector<double>& row) {
         for (const LobeTest& test : tests) {
             Finding finding;
             finding.check = test.name, finding.figure = test.figure, finding.detail = test.detail;
             finding.is_p = test.is_p;
-            finding.limit = test.is_p ? level : 1;
+            finding.limit = test.is_p ? level_ : 1;
             finding.unit = test.is_p ? "probability" : "tolerances";
             finding.worst = hex_row(sampler_, row);
             const auto [place, added] = findings_.try_emplace(test.name, finding);
@@ -95,6 +97,7 @@ class WorstLobes {
 
   private:
     const Function& sampler_;
+    double level_;
     std::map<std::string, Finding> findings_;
 };
 
@@ -117,7 +120,11 @@ class Run {
             work_total_ += work(*function);
         }
         report_.level = sidak(family_rate, report_.tests);
-        pointwise_ = {math, options.seed, std::size_t{1} << (options.quick ? 13 : 16), options.quick};
+        pointwise_.math = math;
+        pointwise_.seed = options.seed;
+        pointwise_.random_points = std::size_t{1} << (options.quick ? 14 : 16);
+        pointwise_.hard_stride = options.quick ? 7 : 1;
+        pointwise_.quick = options.quick;
     }
 
     Report run(const std::vector<const Function*>& selected) {
@@ -159,22 +166,31 @@ class Run {
     void statistics(const Function& sampler, std::vector<Finding>& all) {
         const KnownBias bias = known_bias(sampler);
         Drawer<T> drawer(evaluator_, sampler, options_.seed, report_.samples);
-        WorstLobes worst(sampler);
-        std::future<void> judging;
+        WorstLobes worst(sampler, report_.level);
+        // A thread for each lobe drawn, as many at once as the host has.
+        struct Judging {
+            std::vector<double> row;
+            std::future<std::vector<LobeTest>> tests;
+        };
+        std::deque<Judging> judging;
+        const auto finish_first = [&] {
+            worst.add(judging.front().tests.get(), judging.front().row);
+            judging.pop_front();
+        };
         // Numbered by function and lobe, so that --only repeats a run's samples.
         std::uint64_t stream = static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
         double done = 0;
         for (const Point& lobe : lobes(sampler, options_.quick)) {
             options_.progress(sampler.name, (work_done_ + ++done) / work_total_);
             Batch<T> batch = drawer.draw(lobe, stream++);
-            if (judging.valid()) judging.get();
-            judging = std::async(std::launch::async, [&, batch = std::move(batch)] {
-                worst.add(test_lobe(sampler, batch.row, batch.x.size(), batch.x.data(), batch.y.data(),
-                                    batch.z.data(), report_.level, bias),
-                          batch.row, report_.level);
-            });
+            std::vector<double> row = batch.row;
+            if (judging.size() >= thread_count()) finish_first();
+            judging.push_back({std::move(row), std::async(std::launch::async, [&, batch = std::move(batch)] {
+                                   return test_lobe(sampler, batch.row, batch.x.size(), batch.x.data(),
+                                                    batch.y.data(), batch.z.data(), report_.level, bias);
+                               })});
         }
-        if (judging.valid()) judging.get();
+        while (!judging.empty()) finish_first();
         worst.append_to(all);
     }
 

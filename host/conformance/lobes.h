@@ -27,9 +27,9 @@ struct LobeTest {
 // The tests that a lobe of this sampler takes, judged or not: the run's count for Sidak.
 std::size_t tests_per_lobe(const Function& sampler);
 
-// The n directions (x, y, z), drawn for the sampler's inputs `row` (u is not read), against the reference:
-// the pivots (32 x 32 chi-squared, two Kolmogorov-Smirnov), the histogram of the directions, first and second
-// moments. T is float or double, `level` the rate of false alarms of one test.
+// The n directions (x, y, z), drawn for the sampler's inputs `row` (u is not read), against the reference: the
+// pivots (32 x 32 chi-squared, two Kolmogorov-Smirnov), the histogram of the first quarter of the directions, first
+// and second moments. T is float or double, `level` the rate of false alarms of one test.
 template <class T>
 std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
                                 const T* x, const T* y, const T* z, double level, const KnownBias& bias);

@@ -48,8 +48,9 @@ std::string to_string(Verdict verdict) {
 namespace {
 
 std::string figure_text(const Finding& f) {
-    return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, f.is_p ? "at least" : "at most",
-                       f.limit, f.unit.empty() ? "" : " ", f.unit);
+    const char* const relation = f.biased ? "documented:" : f.is_p ? "at least" : "at most";
+    return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, relation, f.limit,
+                       f.unit.empty() ? "" : " ", f.unit);
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ std::string format_table(const Report& report) {
     for (const FunctionReport& f : report.functions)
         for (const Finding& finding : f.findings)
             if (!finding.passed() || finding.biased)
-                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", finding.passed() ? "bias" : "FAILED",
+                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", finding.passed() ? "known bias" : "FAILED",
                                     f.function->name, figure_text(finding),
                                     finding.detail.empty() ? "" : "; ", finding.detail, finding.worst);
     const auto count = [&](Verdict verdict) {

@@ -41,31 +41,60 @@ double RowReader::cos_theta_o(const double* row) const {
     return dot(o, axis) / (length(o) * length(axis));
 }
 
+bool in_core(const RowReader& reader, const double* row) {
+    const auto [x, y] = reader.alpha(row);
+    return reader.cos_theta_o(row) >= 0.1 && std::min(x, y) >= 1e-3 && std::max(x, y) <= 1;
+}
+
 double beckmann_exponent(const Direction& m, std::array<double, 2> alpha) {
     const double x = m[0] / (std::max(alpha[0], 1e-8) * m[2]), y = m[1] / (std::max(alpha[1], 1e-8) * m[2]);
     return x * x + y * y;
 }
 
-double relative_condition(const Function& function, reference::Evaluation<double> evaluation,
-                          const double* row, reference::Precision precision) {
+bool at_edge(const Function& density, const double* row, runtime::Real real) {
+    return density.name == "vndf_ggx_pdf_wi_eto2023" &&
+           std::abs(reference::cap_margin(row, precision(real))) <= 64;
+}
+
+namespace {
+
+// The Euclidean size of output `output` of a - b, or of all of them.
+double distance(const Function& function, const std::array<double, 4>& a, const std::array<double, 4>& b,
+                int output) {
+    if (output >= 0) return std::abs(a[output] - b[output]);
+    double size = 0;
+    for (std::size_t k = 0; k < function.outputs.size(); ++k) size = std::hypot(size, a[k] - b[k]);
+    return size;
+}
+
+}  // namespace
+
+double absolute_condition(const Function& function, reference::Evaluation<double> evaluation,
+                          const double* row, reference::Precision precision, int output) {
     constexpr double step = 0x1p-24;
-    const std::size_t outputs = function.outputs.size();
-    double in[16], low[4], high[4], at[4], condition = 0, size = 0;
-    std::copy(row, row + function.inputs.size(), in);
-    evaluation(in, at, precision);
-    for (std::size_t k = 0; k < outputs; ++k) size = std::hypot(size, at[k]);
+    std::array<double, 16> in{};
+    std::array<double, 4> low{}, high{};
+    std::copy(row, row + function.inputs.size(), in.begin());
+    double condition = 0;
     for (std::size_t j = 0; j < function.inputs.size(); ++j) {
         const double x = in[j];
         in[j] = x * (1 - step);
-        evaluation(in, low, precision);
+        evaluation(in.data(), low.data(), precision);
         in[j] = x * (1 + step);
-        evaluation(in, high, precision);
+        evaluation(in.data(), high.data(), precision);
         in[j] = x;
-        double change = 0;
-        for (std::size_t k = 0; k < outputs; ++k) change = std::hypot(change, high[k] - low[k]);
-        condition += change / (2 * step);
+        condition += distance(function, high, low, output) / (2 * step);
     }
-    return size > 0 ? condition / size : std::numeric_limits<double>::infinity();
+    return condition;
+}
+
+double relative_condition(const Function& function, reference::Evaluation<double> evaluation,
+                          const double* row, reference::Precision precision, int output) {
+    std::array<double, 4> at{};
+    evaluation(row, at.data(), precision);
+    const double size = distance(function, at, {}, output);
+    return size > 0 ? absolute_condition(function, evaluation, row, precision, output) / size
+                    : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace vndf::conformance

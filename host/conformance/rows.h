@@ -40,6 +40,9 @@ class RowReader {
     int wo_, n_, wm_, wi_, alpha_, alpha_columns_;
 };
 
+// The part of the domain for which the strict bounds hold in full: cos(theta_o) >= 0.1, 1e-3 <= alpha <= 1.
+bool in_core(const RowReader& reader, const double* row);
+
 double dot(const Direction& a, const Direction& b);
 double length(const Direction& a);
 
@@ -47,9 +50,18 @@ double length(const Direction& a);
 // of the Beckmann distribution.
 double beckmann_exponent(const Direction& m, std::array<double, 2> alpha);
 
-// The relative condition number of a function's result: sum over the inputs of |x_j df/dx_j| / |f|, by
-// differences of the reference over a rounding error of float either way. Infinite where the result is 0.
+// Whether the row lies where the rounding of its direction decides between the density and 0: the edge of the
+// bounded cap.
+bool at_edge(const Function& density, const double* row, runtime::Real real);
+
+// The condition of a function's result, or of one of its outputs: sum over the inputs of |x_j| ||df/dx_j||, by
+// differences of the reference over a rounding error of float either way. Divided by the size of the result it is
+// the relative condition number.
+double absolute_condition(const Function& function, reference::Evaluation<double> evaluation,
+                          const double* row, reference::Precision precision, int output = -1);
+
+// The relative one, infinite where the result is 0.
 double relative_condition(const Function& function, reference::Evaluation<double> evaluation,
-                          const double* row, reference::Precision precision);
+                          const double* row, reference::Precision precision, int output = -1);
 
 }  // namespace vndf::conformance

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "conformance/grids.h"
 #include "conformance/parallel.h"
 #include "conformance/rows.h"
-
 #include "conformance/values.h"
+
 namespace vndf::conformance {
 namespace {
 
@@ -31,12 +32,6 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
     return 1 + cos_theta_o < 1e-15 ? Region::undefined : Region::back;
 }
 
-// The part of the domain for which the strict bounds hold in full: cos(theta_o) >= 0.1, 1e-3 <= alpha <= 1.
-bool in_core(const RowReader& reader, const double* row) {
-    const auto [x, y] = reader.alpha(row);
-    return reader.cos_theta_o(row) >= 0.1 && std::min(x, y) >= 1e-3 && std::max(x, y) <= 1;
-}
-
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
     Errors front, back, core, length, below, behind, bad;
@@ -48,8 +43,9 @@ struct MapErrors {
 
 using Columns = std::vector<std::vector<double>>;
 
+// `settled`: rounding of the inputs leaves the direction determined, so that it can be held to a side of wo.
 void add_invariants(const Function& sampler, const RowReader& reader, const double* row, const double* result,
-                    bool defined, double unit, std::size_t i, MapErrors& errors) {
+                    bool defined, bool settled, double unit, std::size_t i, MapErrors& errors) {
     const Direction d{result[0], result[1], result[2]};
     const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
     errors.bad.add(finite ? 0 : 1, i);
@@ -57,7 +53,7 @@ void add_invariants(const Function& sampler, const RowReader& reader, const doub
     errors.length.add(std::abs(length(d) - 1) / unit, i);
     if (!defined || sampler.result != "WM") return;
     errors.below.add(std::max(0.0, -dot(d, reader.n(row))) / unit, i);
-    if (reader.has_wo())
+    if (reader.has_wo() && settled)
         errors.behind.add(std::max(0.0, -dot(d, reader.wo(row)) / length(reader.wo(row))) / unit, i);
 }
 
@@ -75,12 +71,13 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
             const bool defined = where == Region::front || where == Region::back;
             const double result[3] = {results[0][i], results[1][i], results[2][i]};
             MapErrors& errors = parts[thread];
-            add_invariants(sampler, reader, row.data(), result, defined, unit, i, errors);
-            if (!defined) continue;
+            const double condition =
+                defined ? conditioning(row.data(), precision(real)) : std::numeric_limits<double>::infinity();
+            add_invariants(sampler, reader, row.data(), result, defined, condition * unit < 0.01, unit, i,
+                           errors);
+            if (!std::isfinite(condition)) continue;  // no direction, or a true singularity of the map
             const std::vector<R> in(row.begin(), row.end());
             R exact[4];
-            const double condition = conditioning(row.data(), precision(real));
-            if (!std::isfinite(condition)) continue;  // the map has a true singularity there
             evaluation(in.data(), exact, precision(real));
             const R wide[3] = {result[0], result[1], result[2]};
             const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
@@ -91,6 +88,9 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
     for (std::size_t i = 1; i < parts.size(); ++i) parts[0].merge(parts[i]);
     return parts[0];
 }
+
+}  // namespace
+
 Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
     if (function.kind != Kind::sampler) return value_errors(evaluator, function, table);
     const Columns results = evaluate(evaluator, function, table);
@@ -104,13 +104,10 @@ Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function,
     return errors.front;
 }
 
-
-}  // namespace
-
 Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options) {
     std::vector<Point> points = random_points(function, options.random_points, options.seed);
     const std::vector<Point> hard = hard_points(function);
-    for (std::size_t i = 0; i < hard.size(); i += options.quick ? 4 : 1) points.push_back(hard[i]);
+    for (std::size_t i = 0; i < hard.size(); i += options.hard_stride) points.push_back(hard[i]);
     return tabulate(function, points, real == Real::f32 ? Rounding::to_float : Rounding::none);
 }
 

@@ -13,7 +13,8 @@ struct PointwiseOptions {
     Math math = Math::strict;
     std::uint64_t seed = 1;
     std::size_t random_points = std::size_t{1} << 16;
-    bool quick = false;  // every fourth of the hard points
+    std::size_t hard_stride = 1;  // every how manieth of the hard points
+    bool quick = false;           // the lobes of a quick run
 };
 
 // The findings of a sampler in its plain form.
@@ -24,11 +25,11 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
 std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Function& with_pdf,
                                     const PointwiseOptions& options);
 
-// Hard and random points as a table.
 // The errors of a function of any kind at the rows of `table`, wherever it is judged, in the unit of its checks: the
 // angle of a direction (front or back), the relative error of anything else.
 Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table);
 
+// Hard and random points as a table.
 Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);
 
 }  // namespace vndf::conformance

@@ -54,6 +54,13 @@ struct Judge {
     RowReader reader;
 };
 
+// error / allowance, where NaN is the worst of errors and an infinite allowance no judgement (NaN).
+double settle(double error, double allowance) {
+    if (!std::isfinite(allowance)) return std::numeric_limits<double>::quiet_NaN();
+    if (std::isnan(error)) return std::numeric_limits<double>::infinity();
+    return error == 0 ? 0 : error / allowance;
+}
+
 // The error of row i in its unit; NaN if the row is not judged.
 template <class R>
 double error_at(const Judge& j, std::size_t i) {
@@ -74,18 +81,17 @@ double error_at(const Judge& j, std::size_t i) {
     // Near the sign of a rounded product and outside the range of the type there is no relative error.
     const double lost = cancellation(j.reader, row.data());
     if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
-    if (j.function.name == "vndf_ggx_pdf_wi_eto2023" &&
-        std::abs(reference::cap_margin(row.data(), precision(j.real))) <= 64)
-        return skip;  // at the edge of the cap, where rounding decides between the density and 0
-    if (size < smallest) return difference <= 2 * smallest ? 0 : std::numeric_limits<double>::infinity();
+    if (at_edge(j.function, row.data(), j.real)) return skip;
+    if (size < smallest && difference <= 2 * smallest) return 0;
+    if (j.unit == Unit::condition) {
+        const double condition = absolute_condition(
+            j.function, reference::find_evaluation<double>(j.function.name), row.data(), precision(j.real));
+        return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
+    }
+    if (size < smallest) return std::numeric_limits<double>::infinity();
     double allowance = lost;
     if (j.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
-    if (j.unit == Unit::condition)
-        allowance = 1 + relative_condition(j.function, reference::find_evaluation<double>(j.function.name),
-                                           row.data(), precision(j.real));
-    if (!std::isfinite(allowance)) return skip;
-    const double error = static_cast<double>(difference / size) / (unit * allowance);
-    return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+    return settle(static_cast<double>(difference / size), unit * allowance);
 }
 
 template <class R>
@@ -103,12 +109,6 @@ Errors judged_errors(const Judge& judge) {
 
 }  // namespace
 
-std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
-                                  const PointwiseOptions& options) {
-    const Real real = evaluator.input_real();
-    const Table table = pointwise_table(function, real, options);
-    const auto results = evaluate(evaluator, function, table);
-    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
 Errors value_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
     const Real real = evaluator.input_real();
     const auto results = evaluate(evaluator, function, table);
@@ -116,19 +116,27 @@ Errors value_errors(runtime::Evaluator& evaluator, const Function& function, con
     return real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
 }
 
-    const Errors errors = real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
+std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
+                                  const PointwiseOptions& options) {
+    const Real real = evaluator.input_real();
+    const Table table = pointwise_table(function, real, options);
+    const auto results = evaluate(evaluator, function, table);
+    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    const Errors errors =
+        real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
     Errors bad;
+    const bool density = function.kind == Kind::density;
     for (std::size_t i = 0; i < table.rows(); ++i)
         for (const auto& column : results)
-            bad.add(std::isfinite(column[i]) && (function.kind == Kind::geometry || column[i] >= 0) ? 0 : 1,
-                    i);
+            bad.add(std::isfinite(column[i]) && (!density || column[i] >= 0) ? 0 : 1, i);
 
     const char* const units[] = {"eps", "eps (1 + 2q)", "eps (1 + cond)"};
     const double limit =
         (real == Real::f32 ? function.bound : std::max(function.bound, 20.0)) * slack(options.math);
     return {make_finding("pointwise, maximum", errors.max(), limit, units[static_cast<int>(judge.unit)],
                          errors, function, table),
-            make_finding("finite and not negative", bad.max(), 0, "rows", bad, function, table)};
+            make_finding(density ? "finite and not negative" : "finite", bad.max(), 0, "rows", bad, function,
+                         table)};
 }
 
 }  // namespace vndf::conformance
