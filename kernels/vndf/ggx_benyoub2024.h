@@ -46,6 +46,12 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
               ez = n.z < VNDF_R(0.0) ? -along_w : along_w;
     VNDF_REAL hx = VNDF_FMA(sin_o, ex, cap.tangent * vx), hy = VNDF_FMA(sin_o, ey, cap.tangent * vy),
               hz = VNDF_FMA(sin_o, ez, cap.tangent * vz), height = rest * cap.sqrt_p;
+    // Rounding may put a nearly vanishing half vector behind the silhouette (ggx_dupuy2023.h).
+    VNDF_REAL behind = -VNDF_FMA(vx, hx, VNDF_FMA(vy, hy, VNDF_FMA(vz, hz, z * height)));
+    VNDF_REAL back = vndf_impl_max(behind, VNDF_R(0.0)) * v.rcp_l * v.rcp_l;
+    hx = VNDF_FMA(back, vx, hx);
+    hy = VNDF_FMA(back, vy, hy);
+    hz = VNDF_FMA(back, vz, hz);
     VNDF_REAL tangent2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), height2 = height * height;
     VNDF_REAL gx = VNDF_FMA(height, n.x, alpha * hx), gy = VNDF_FMA(height, n.y, alpha * hy),
               gz = VNDF_FMA(height, n.z, alpha * hz);

@@ -19,6 +19,12 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL hx = VNDF_FMA(sin_o, vndf_impl_circle_cos(u1), cap.tangent * v.x);
     VNDF_REAL hy = VNDF_FMA(sin_o, vndf_impl_circle_sin(u1), cap.tangent * v.y);
     VNDF_REAL hz = rest * cap.sqrt_p;
+    // v . h = |h|^2 / 2 is positive. Where h nearly vanishes (u2 near 1, opposite azimuths) rounding may deny it:
+    // back to the silhouette, along the tangential part of v, which leaves the height.
+    VNDF_REAL behind = -VNDF_FMA(v.x, hx, VNDF_FMA(v.y, hy, v.z * hz));
+    VNDF_REAL back = vndf_impl_max(behind, VNDF_R(0.0)) * v.rcp_l * v.rcp_l;
+    hx = VNDF_FMA(back, v.x, hx);
+    hy = VNDF_FMA(back, v.y, hy);
     // (m . v) sqrt(P) = |h|^2 / 2.
     VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
     VNDF_REAL weight = cap.sqrt_p > VNDF_R(0.0) ? h2 / cap.sqrt_p : VNDF_R(0.0);
