@@ -52,7 +52,7 @@ GaussianTail<double> quick_tail(double y) {
         const double mass = std::exp(y * y) * std::erfc(y);
         return {mass, 1 / root_pi - y * mass};
     }
-    int n = static_cast<int>(3 + 50 / (y * y));
+    int n = static_cast<int>(4 + 90 / (y * y));
     double k = (std::sqrt(y * y + 2 * n) - y) / 2;
     for (; n > 1; --n) k = 0.5 * n / (y + k);
     k = 0.5 / (y + k);

@@ -44,7 +44,7 @@ template <class R>
 R hypotenuse(const R& x, const R& y) {
     using std::abs, std::sqrt;
     const R scale = abs(x) < abs(y) ? R(abs(y)) : R(abs(x));
-    if (!(scale > 0)) return scale + x + y;  // 0, or NaN
+    if (!(scale > 0)) return R(value_of(x) + value_of(y));  // 0, or NaN
     return scale * sqrt(squared(R(x / scale)) + squared(R(y / scale)));
 }
 template <class R>
