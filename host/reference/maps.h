@@ -13,6 +13,7 @@ struct Arguments {
     Vec3<R> wo, n;
     R alpha_x, alpha_y;
     R u1, v1, u2, v2;  // v = 1 - u, exact
+    Real<R> least_u;   // the lower clamp of u
     R rotation;        // of e, 0
 };
 
@@ -364,9 +365,11 @@ Sample<R> beckmann_heitz_deon2014(const Arguments<R>& in) {
         x = erfc_inv<R>(2 * less + (1 - 2 * less) * beyond);
         if (left) x = -x;
         const R p = Real<R>(0.5) - x / (2 * a), q = Real<R>(0.5) + x / (2 * a);
+        // A number used up by the choice of the sign is kept from 0 as u is, without hiding how it varies.
+        const auto kept = [&](const R& u) { return u < in.least_u ? R(u + (in.least_u - value_of(u))) : u; };
         const bool mirror = in.u2 > p;
-        y = mirror ? gaussian_slope<R>((in.u2 - p) / q, in.v2 / q)
-                   : gaussian_slope<R>(in.u2 / p, (p - in.u2) / p);
+        y = mirror ? gaussian_slope<R>(kept((in.u2 - p) / q), in.v2 / q)
+                   : gaussian_slope<R>(in.u2 / p, kept((p - in.u2) / p));
         if (mirror) x = -x;
     }
     return beckmann_from_slopes(v, s, {x, a - x}, y);

@@ -22,10 +22,15 @@ R clamped_alpha(const R& alpha, Precision precision) {
     return alpha < least ? R(least) : alpha;
 }
 
+template <class T>
+T least_u(Precision precision) {
+    return precision == Precision::f32 ? T(0x1p-33) : T(0x1p-65);
+}
+
 template <class R>
 R clamped_u(const R& u, Precision precision) {
     using T = Real<R>;
-    const T low = precision == Precision::f32 ? T(0x1p-33) : T(0x1p-65);
+    const T low = least_u<T>(precision);
     const T high = precision == Precision::f32 ? T(1 - 0x1p-24) : T(1 - 0x1p-53);
     return u < low ? R(low) : u > high ? R(high) : u;
 }
@@ -57,6 +62,7 @@ Arguments<R> arguments(Layout layout, const R* in, Precision precision) {
     a.u2 = clamped_u(in[1], precision);
     a.v1 = 1 - a.u1;
     a.v2 = 1 - a.u2;
+    a.least_u = least_u<Real<R>>(precision);
     a.rotation = R(0);
     return a;
 }
@@ -88,14 +94,22 @@ template <Sample<D> (*map)(const Arguments<D>&), Layout layout>
 double sampler_condition(const double* in, Precision precision) {
     constexpr std::size_t n = scalars(layout);
     D x[n];
-    for (std::size_t i = 0; i < n; ++i) x[i] = D::variable(in[i], i);
+    for (std::size_t i = 0; i < n; ++i) {
+        // A clamped number varies as the one that stands for it.
+        const bool u = i + 2 >= n, alpha = !u && i >= (layout == Layout::wo_n_alpha1_u ? 6 : n - 4);
+        x[i] = D::variable(u       ? clamped_u(in[i], precision)
+                           : alpha ? clamped_alpha(in[i], precision)
+                                   : in[i],
+                           i);
+    }
     Arguments<D> a = arguments(layout, x, precision);
     a.rotation = D::variable(0, n);
     const Vec3<D> d = map(a).direction;
     double sum = 0;
     for (std::size_t i = 0; i <= n; ++i)
-        sum += (i < n ? std::abs(in[i]) : 1) * std::hypot(d.x.partial[i], d.y.partial[i], d.z.partial[i]);
-    return sum;
+        sum +=
+            (i < n ? std::abs(x[i].value) : 1) * std::hypot(d.x.partial[i], d.y.partial[i], d.z.partial[i]);
+    return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 
 struct Condition {
