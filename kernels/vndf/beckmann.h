@@ -33,20 +33,12 @@ VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
     return s;
 }
 
-// scale e^(-x^2 - y^2), where the rounding of the squares is compensated.
-VNDF_FN VNDF_REAL vndf_impl_gaussian(VNDF_REAL x, VNDF_REAL y, VNDF_REAL scale) {
-    VNDF_REAL xx = x * x, square = VNDF_FMA(y, y, xx);
-    VNDF_REAL low = VNDF_FMA(x, x, -xx) + (VNDF_FMA(y, y, xx - square));
-    // Beyond the range of the exponential (low is infinite or NaN if x^2 overflows) the result is 0.
-    return vndf_impl_scaled_exp(-square, square < -VNDF_IMPL_EXP_MIN ? -low : VNDF_R(0.0), scale);
-}
-
-// D for a normal (x, y, z) of any length, times `scale`.
+// D for a normal (x, y, z), taken literally.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
                                        VNDF_REAL alpha_y) {
-    VNDF_REAL z2 = z * z;
-    VNDF_REAL d =
-        vndf_impl_gaussian(x / alpha_x / z, y / alpha_y / z, VNDF_1_PI / ((z2 * alpha_x) * (z2 * alpha_y)));
+    VNDF_REAL z2 = z * z, sx = x / alpha_x / z, sy = y / alpha_y / z;
+    VNDF_REAL d = vndf_impl_scaled_exp(-VNDF_FMA(sx, sx, sy * sy), VNDF_R(0.0),
+                                       VNDF_1_PI / ((z2 * alpha_x) * (z2 * alpha_y)));
     return z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
 }
 
@@ -126,17 +118,16 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
 }
 
 // The component of the slope of (x, y, .) across the stretched wo, times l and the height of the normal:
-// x wo.y alpha_y / alpha_x - y wo.x alpha_x / alpha_y. Behind the surface both terms may be 1e8 times their difference:
-// products and quotients carry their rounding errors along.
+// (x wo.y alpha_y^2 - y wo.x alpha_x^2) / (alpha_x alpha_y). Behind the surface the terms may be 1e8 times their
+// difference: every product carries its rounding error along. Alphas are taken 2^27 times larger, against underflow.
 VNDF_FN VNDF_REAL vndf_impl_slope_across(VNDF_REAL3 wo, VNDF_REAL x, VNDF_REAL y, VNDF_REAL alpha_x,
                                          VNDF_REAL alpha_y) {
-    VNDF_REAL up = alpha_y / alpha_x, down = alpha_x / alpha_y;
-    VNDF_REAL up_low = VNDF_FMA(-up, alpha_x, alpha_y) / alpha_x;
-    VNDF_REAL down_low = VNDF_FMA(-down, alpha_y, alpha_x) / alpha_y;
-    VNDF_REAL p = x * wo.y, q = y * wo.x;
+    VNDF_REAL ax = alpha_x * VNDF_R(134217728.0), ay = alpha_y * VNDF_R(134217728.0);
+    VNDF_REAL ax2 = ax * ax, ay2 = ay * ay, p = x * wo.y, q = y * wo.x;
+    VNDF_REAL ax2_low = VNDF_FMA(ax, ax, -ax2), ay2_low = VNDF_FMA(ay, ay, -ay2);
     VNDF_REAL p_low = VNDF_FMA(x, wo.y, -p), q_low = VNDF_FMA(y, wo.x, -q);
-    VNDF_REAL low = VNDF_FMA(p, up_low, p_low * up) - VNDF_FMA(q, down_low, q_low * down);
-    return vndf_impl_difference_of_products(p, up, q, down) + low;
+    VNDF_REAL low = VNDF_FMA(p, ay2_low, VNDF_FMA(p_low, ay2, -VNDF_FMA(q, ax2_low, q_low * ax2)));
+    return (vndf_impl_difference_of_products(p, ay2, q, ax2) + low) / (ax * ay);
 }
 
 // weight D / sigma(wo) for a normal (x, y, z): 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
@@ -155,7 +146,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     VNDF_REAL exponent = front ? VNDF_FMA(sx, sx, sy * sy) : steep;
     // Small factors first: below the horizon l I(a) may be as small as weight.
     VNDF_REAL share = front ? weight / VNDF_FMA(v.l * s.gaussian, s.hidden, wo.z) : weight / v.l / s.hidden;
-    VNDF_REAL scale = VNDF_1_PI * share * (rise / v.alpha_x) * (rise / v.alpha_y);
+    VNDF_REAL scale = VNDF_1_PI * share * rise / (v.alpha_x * v.alpha_y) * rise;
     VNDF_REAL result = vndf_impl_finite(vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale));
     return z > VNDF_R(0.0) && (front || v.l > VNDF_R(0.0)) ? result : VNDF_R(0.0);
 }

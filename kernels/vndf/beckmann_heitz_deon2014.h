@@ -7,9 +7,9 @@
 
 #include "beckmann_slopes.h"
 
-// The slope x and the second number with its complement, used again where it chose the sign of x.
+// The slope x, and of the second number u2, used again where it chose the sign of x: 1 - 2 u2 and u2 (1 - u2).
 struct vndf_impl_folded_slope {
-    VNDF_REAL x, u2, v2;
+    VNDF_REAL x, difference, product;
 };
 
 // The masses before division by sigma: edge = s e^(-a^2) / (2 sqrt(pi)) and plateau = c erfc(a) / 2 for x < -a; the rest
@@ -18,7 +18,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
                                                               VNDF_REAL u1, VNDF_REAL u2) {
     struct vndf_impl_folded_slope fold;
     VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
-    VNDF_REAL within = vndf_impl_erf(i.a);
+    VNDF_REAL within = vndf_impl_erf_of(i.a, beyond);
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, plateau = VNDF_R(0.5) * i.c * beyond;
     VNDF_REAL mass = u1 * i.sigma;
     // Above u1 = 1/2, 1 - mass / edge keeps the digits of 1 - u1.
@@ -50,8 +50,8 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL rcp = VNDF_R(1.0) / (mirror ? swap : keep);
     VNDF_REAL low = mirror ? u2 - keep : u2, high = mirror ? VNDF_R(1.0) - u2 : keep - u2;
     fold.x = !outer && mirror ? -x : x;
-    fold.u2 = outer ? u2 : low * rcp;
-    fold.v2 = outer ? VNDF_R(1.0) - u2 : high * rcp;
+    fold.difference = outer ? VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0)) : (high - low) * rcp;
+    fold.product = outer ? u2 * (VNDF_R(1.0) - u2) : low * rcp * rcp * high;
     return fold;
 }
 
@@ -60,8 +60,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
     struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(f.slopes, vndf_impl_u(u.x), vndf_impl_u(u.y));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp: rounding may bring a used number to 0.
-    VNDF_REAL product = vndf_impl_max(r.u2 * r.v2, VNDF_U_MIN);
-    VNDF_REAL y = (r.v2 - r.u2) * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
+    VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
+    VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
     struct vndf_impl_slope_found along;
     along.offset = -r.x;
     along.origin.base = VNDF_R(0.0);

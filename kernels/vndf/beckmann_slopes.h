@@ -18,7 +18,7 @@ struct vndf_impl_incidence_slopes {
     VNDF_REAL gaussian;  // e^(-a^2)
     VNDF_REAL sigma;
     VNDF_REAL hidden;  // in front, the mass of slopes that face away, over sigma
-    VNDF_REAL reach;   // 1 - C tends to (y / reach)^2 at the edge
+    VNDF_REAL reach2;  // 1 - C tends to y^2 / reach2 at the edge
     int front;
 };
 VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL c, VNDF_REAL s) {
@@ -32,7 +32,7 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     i.gaussian = slopes.gaussian;
     i.sigma = i.front ? hidden + c : slopes.hidden;
     i.hidden = hidden / i.sigma;
-    i.reach = VNDF_SQRT(VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? edge : VNDF_R(1.0)));
+    i.reach2 = VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? edge : VNDF_R(1.0));
     return i;
 }
 
@@ -71,7 +71,7 @@ VNDF_FN struct vndf_impl_slope_square vndf_impl_slope_square_of(struct vndf_impl
     return square;
 }
 
-// 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J (y / reach)^2, for |2 a y| <= 1 and
+// 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J y^2 / reach2, for |2 a y| <= 1 and
 // y <= 0.55: the sum of 2 H_n(a) y^n / (n! (n + 2)), of which the first omitted is below 2^-25 (double: 2^-54). Not `exact`,
 // it is good to 1e-3.
 VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact) {
@@ -84,8 +84,10 @@ VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact
     sum = VNDF_FMA(VNDF_R(2.0) / (VNDF_R(n) + VNDF_R(2.0)), g, sum);
     VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0) VNDF_REAL rough = sum;
     VNDF_IMPL_TERM(6.0)
-        VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0)
-            VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(7.0)
+    VNDF_IMPL_TERM(8.0)
+        VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0)
+            VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
                 VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
                     VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
@@ -117,8 +119,8 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
     // Next to the edge 1 - C is a difference of nearly equal terms.
-    VNDF_REAL two_ay = VNDF_R(-2.0) * o.base * offset, ratio = offset / i.reach;
-    VNDF_REAL near = ratio * ratio * vndf_impl_edge_series(two_ay, offset, exact);
+    VNDF_REAL two_ay = VNDF_R(-2.0) * o.base * offset;
+    VNDF_REAL near = offset / i.reach2 * offset * vndf_impl_edge_series(two_ay, offset, exact);
     int series = upper && o.edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
     r.mass = series ? near : mass;
     r.density = VNDF_1_SQRT_PI * projection * e;
@@ -156,62 +158,44 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? cdf : VNDF_R(1.0);
 }
 
-// Where to start: the offset within a factor 2 of the root, in y.
-//
-// In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where the Gaussian
-// is cut far away, and below reach sqrt(L), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for a = 0, and
-// the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
-struct vndf_impl_slope_root {
-    VNDF_REAL offset, low, high;
-};
-VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_start(struct vndf_impl_incidence_slopes i,
-                                                          struct vndf_impl_slope_origin o, VNDF_REAL u) {
-    struct vndf_impl_slope_root root;
+// Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
+// the Gaussian is cut far away, and below sqrt(L reach2), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for
+// a = 0, and the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
+VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, struct vndf_impl_slope_origin o,
+                                        VNDF_REAL u) {
     VNDF_REAL rest = VNDF_R(1.0) - u, m = vndf_impl_min(u, rest);
     VNDF_REAL log_r = vndf_impl_log(VNDF_R(4.0) * u * rest);
     // -log(1 - m) to 1 % on [0, 1/2], and log(u) from it.
     VNDF_REAL q =
         VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
-    VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q, root_l = VNDF_SQRT(l);
+    VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q;
+    VNDF_REAL edge = VNDF_SQRT(l * i.reach2);
 
-    VNDF_REAL mid = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
-    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(mid, mid, VNDF_R(-6.80272109) * log_r)) - mid;
+    VNDF_REAL part = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
+    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(part, part, VNDF_R(-6.80272109) * log_r)) - part;
     VNDF_REAL size = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), normal = u > VNDF_R(0.5) ? -size : size;
     VNDF_REAL g = normal + i.a;
     VNDF_REAL bow = VNDF_R(0.7) / (vndf_impl_abs(g) + VNDF_SQRT(VNDF_FMA(g, g, VNDF_R(1.4))));
-    VNDF_REAL edge = root_l * i.reach;
     VNDF_REAL in_front = o.edge ? vndf_impl_min(vndf_impl_max(g, VNDF_R(0.0)) + bow, edge)
                                 : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
 
-    VNDF_REAL grazing = i.a * i.reach;  // from 0 at a = 0 to 1 / sqrt(2)
-    VNDF_REAL v =
-        VNDF_FMA(VNDF_R(2.0) * grazing, root_l, l * VNDF_FMA(VNDF_R(-0.5) * grazing, grazing, VNDF_R(1.0)));
-    VNDF_REAL v_high = VNDF_R(1.1) * VNDF_FMA(VNDF_R(1.41421356), root_l, l);
-
-    root.offset = i.front ? in_front : v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
-    root.low = o.edge ? VNDF_R(0.0) : vndf_impl_max(-i.a, VNDF_R(-8.0));
-    root.high = i.front ? VNDF_FMA(VNDF_R(1.1), root_l, -o.base)
-                        : v_high / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v_high)));
-    return root;
+    // a^2 reach2 rises from 0 at a = 0 to 1/2.
+    VNDF_REAL far = i.a * (i.a * i.reach2);
+    VNDF_REAL v = VNDF_FMA(VNDF_R(2.0) * i.a, edge, l * VNDF_FMA(VNDF_R(-0.5), far, VNDF_R(1.0)));
+    VNDF_REAL behind = v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
+    return i.front ? in_front : behind;
 }
 
-// One step: Halley's on the logarithm of the mass over k, near 1 equal to 2 (m - k) / (m + k). `low` and `high` bracket
-// the root; a step that leaves them goes half way.
-VNDF_FN struct vndf_impl_slope_root vndf_impl_slope_step(struct vndf_impl_incidence_slopes i,
-                                                         struct vndf_impl_slope_origin o, VNDF_REAL k,
-                                                         int upper, int exact,
-                                                         struct vndf_impl_slope_root root) {
-    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, root.offset, upper, exact);
-    VNDF_REAL excess = upper ? k - m.mass : m.mass - k;
-    VNDF_REAL rate = m.density / m.mass;
-    VNDF_REAL newton = VNDF_R(2.0) * excess / ((m.mass + k) * rate);
-    VNDF_REAL curvature = m.bend + (upper ? -rate : rate);
-    VNDF_REAL denominator = VNDF_FMA(VNDF_R(0.5) * newton, curvature, VNDF_R(1.0));
-    denominator = vndf_impl_min(vndf_impl_max(denominator, VNDF_R(0.5)), VNDF_R(2.0));
-    VNDF_REAL next = root.offset + newton / denominator;
-    VNDF_REAL end = next < root.low ? root.low : root.high;
-    root.offset = next >= root.low && next <= root.high ? next : VNDF_R(0.5) * (root.offset + end);
-    return root;
+// One step from `offset`: Halley's on the logarithm of the mass over k, near 1 equal to 2 (mass - k) / (mass + k). Its
+// correction to Newton's is kept between 1/2 and 2.
+VNDF_FN VNDF_REAL vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, struct vndf_impl_slope_origin o,
+                                       VNDF_REAL k, int upper, int exact, VNDF_REAL offset) {
+    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, offset, upper, exact);
+    VNDF_REAL excess = upper ? k - m.mass : m.mass - k, sum = m.mass + k;
+    VNDF_REAL scale = m.mass / m.density;
+    VNDF_REAL bend = excess * VNDF_FMA(m.bend, scale, upper ? VNDF_R(-1.0) : VNDF_R(1.0));
+    bend = vndf_impl_min(vndf_impl_max(bend, VNDF_R(-0.5) * sum), sum);
+    return offset + VNDF_R(2.0) * excess * scale / (sum + bend);
 }
 
 // The slope with the mass u beyond it; monotone in u.
@@ -225,19 +209,19 @@ VNDF_FN struct vndf_impl_slope_found vndf_impl_slope_of_mass(struct vndf_impl_in
     int upper = u > VNDF_R(0.75);
     VNDF_REAL k = upper ? VNDF_R(1.0) - u : u;
     found.origin = vndf_impl_slope_origin_of(i, upper);
-    struct vndf_impl_slope_root root = vndf_impl_slope_start(i, found.origin, u);
-#ifdef VNDF_STEPS
-    for (int j = 0; j < VNDF_STEPS; ++j)
-        root = vndf_impl_slope_step(i, found.origin, k, upper, j >= VNDF_STEPS - 2, root);
-#else
-    root = vndf_impl_slope_step(i, found.origin, k, upper, 0, root);
-    root = vndf_impl_slope_step(i, found.origin, k, upper, 0, root);
+    // The bracket: the start is within [y / 2, 3/2 y] and [t - 1, t + 1]. Three steps (double: four) reach rounding.
+    VNDF_REAL start = vndf_impl_slope_start(i, found.origin, u);
+    VNDF_REAL low = found.origin.edge ? VNDF_R(0.5) * start : start - VNDF_R(1.0);
+    VNDF_REAL high = found.origin.edge ? VNDF_R(2.5) * start : start + VNDF_R(1.0);
+#define VNDF_IMPL_STEP(from, exact) \
+    vndf_impl_min(vndf_impl_max(vndf_impl_slope_step(i, found.origin, k, upper, exact, from), low), high)
+    VNDF_REAL offset = VNDF_IMPL_STEP(start, 0);
+    offset = VNDF_IMPL_STEP(offset, 0);
 #if VNDF_DOUBLE
-    root = vndf_impl_slope_step(i, found.origin, k, upper, 1, root);
+    offset = VNDF_IMPL_STEP(offset, 1);
 #endif
-    root = vndf_impl_slope_step(i, found.origin, k, upper, 1, root);
-#endif
-    found.offset = root.offset;
+    found.offset = VNDF_IMPL_STEP(offset, 1);
+#undef VNDF_IMPL_STEP
     return found;
 }
 
@@ -293,7 +277,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
-    m.pdf = vndf_impl_finite(weight * (rise / alpha_x) * (rise / alpha_y) * rise);
+    m.pdf = vndf_impl_finite(weight * rise / (alpha_x * alpha_y) * rise * rise);
     return m;
 }
 
