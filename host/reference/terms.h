@@ -154,11 +154,12 @@ View<R> view_of_cosine(const R& cos_theta) {
 }
 template <class R>
 R ggx_slope_pdf(const R& c, const R& x) {
-    using std::atan2, std::sqrt;
+    using std::sqrt;
     const View<R> v = view_of_cosine(c);
     if (nothing_visible(v)) return R(0);
-    // x = -cot(beta): dbeta / dx = sin^2(beta)
-    return ggx_beta_pdf<R>(atan2(R(1), R(-x)), v.theta, v.nu) / (1 + x * x);
+    // The projected slopes, over their mass (1 + c) / 2.
+    const R visible = c - x * v.sin_theta, square = 1 + x * x;
+    return visible > 0 ? R(visible / (1 + c) / (square * sqrt(square))) : R(0);
 }
 template <class R>
 R ggx_slope_cdf(const R& c, const R& x) {
