@@ -226,7 +226,10 @@ VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL 
     VNDF_REAL h = VNDF_SQRT(VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)));
     // wi . h = wi . wo + eta wi . wi, in twice the precision: it vanishes at grazing transmission.
     struct vndf_impl_pair cross = vndf_impl_dot_pair(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z);
-    struct vndf_impl_pair norm = vndf_impl_dot_pair(wi.x, wi.y, wi.z, wi.x, wi.y, wi.z);
+    // Never the second choice: it keeps LLVM from packing the two alike sums, after which the kernel stays scalar.
+    int finite = cross.head + cross.tail <= VNDF_REAL_MAX;
+    VNDF_REAL x = finite ? wi.x : h, y = finite ? wi.y : h, z = finite ? wi.z : h;
+    struct vndf_impl_pair norm = vndf_impl_dot_pair(x, y, z, x, y, z);
     VNDF_REAL product = eta * norm.head, sum = product + cross.head;
     VNDF_REAL low = VNDF_FMA(eta, norm.head, -product) + vndf_impl_sum_error(product, cross.head, sum);
     VNDF_REAL wi_h = vndf_impl_abs(sum + (low + VNDF_FMA(eta, norm.tail, cross.tail)));

@@ -51,7 +51,7 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
     VNDF_REAL rcp_q = VNDF_R(1.0) / vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y);
-    return vndf_impl_finite(VNDF_1_PI * (rcp_q / alpha_x) * (rcp_q / alpha_y));
+    return vndf_impl_finite(VNDF_1_PI * rcp_q / alpha_x / alpha_y * rcp_q);
 }
 
 // Smith's Lambda.
