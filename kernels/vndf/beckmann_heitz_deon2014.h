@@ -62,11 +62,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp: rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
     VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    struct vndf_impl_slope_found along;
-    along.offset = -r.x;
-    along.origin.base = VNDF_R(0.0);
-    along.origin.edge = 0;
-    return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, along, y));
+    return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map

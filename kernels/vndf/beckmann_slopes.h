@@ -36,39 +36,30 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     return i;
 }
 
-// A slope t = base + offset. Near the edge the base is -a and the offset y, elsewhere they are 0 and t: the offset keeps
-// the digits that matter.
-struct vndf_impl_slope_origin {
-    VNDF_REAL base;
-    int edge;
-};
-// From t = -8 on, where no mass of 2^-53 lies beyond, the edge is out of reach.
-VNDF_FN struct vndf_impl_slope_origin vndf_impl_slope_origin_of(struct vndf_impl_incidence_slopes i,
-                                                                int upper) {
-    struct vndf_impl_slope_origin o;
-    o.edge = !i.front || (upper && i.a < VNDF_R(8.0));
-    o.base = o.edge ? (i.front ? -i.a : i.a) : VNDF_R(0.0);
-    return o;
+// A slope is t = base + offset. `edge`: the base is -a and the offset y; elsewhere they are 0 and t: the offset keeps the
+// digits that matter. Masses `upper` are those near the edge; from t = -8 on, where no mass of 2^-53 lies beyond, it is out
+// of reach.
+VNDF_FN int vndf_impl_slope_is_edge(struct vndf_impl_incidence_slopes i, int upper) {
+    return !i.front || (upper && i.a < VNDF_R(8.0));
+}
+VNDF_FN VNDF_REAL vndf_impl_slope_base(struct vndf_impl_incidence_slopes i, int edge) {
+    return edge ? (i.front ? -i.a : i.a) : VNDF_R(0.0);
 }
 
 // s y, without the factor s behind the surface.
-VNDF_FN VNDF_REAL vndf_impl_slope_projection(struct vndf_impl_incidence_slopes i,
-                                             struct vndf_impl_slope_origin o, VNDF_REAL offset) {
-    return o.edge ? i.s * offset : VNDF_FMA(i.s, offset, i.c);
+VNDF_FN VNDF_REAL vndf_impl_slope_projection(struct vndf_impl_incidence_slopes i, int edge,
+                                             VNDF_REAL offset) {
+    return edge ? i.s * offset : VNDF_FMA(i.s, offset, i.c);
 }
 
-// t^2, behind the surface t^2 - a^2, as a sum of two numbers.
-struct vndf_impl_slope_square {
-    VNDF_REAL head, tail;
-};
-VNDF_FN struct vndf_impl_slope_square vndf_impl_slope_square_of(struct vndf_impl_incidence_slopes i,
-                                                                VNDF_REAL base, VNDF_REAL offset) {
-    struct vndf_impl_slope_square square;
-    VNDF_REAL t = base + offset;
+// scale e^(-t^2 - y^2), behind the surface relative to e^(-a^2). The squares carry their rounding errors along.
+VNDF_FN VNDF_REAL vndf_impl_slope_gaussian(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL offset,
+                                           VNDF_REAL y, VNDF_REAL scale) {
+    VNDF_REAL base = vndf_impl_slope_base(i, edge), t = base + offset;
     VNDF_REAL p = i.front ? t : offset, q = i.front ? t : base + t;
-    square.head = p * q;
-    square.tail = VNDF_FMA(p, q, -square.head);
-    return square;
+    VNDF_REAL square = p * q, exponent = VNDF_FMA(y, y, square);
+    VNDF_REAL low = VNDF_FMA(y, y, square - exponent);
+    return vndf_impl_scaled_exp(-exponent, -low - VNDF_FMA(p, q, -square), scale);
 }
 
 // 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J y^2 / reach2, for |2 a y| <= 1 and
@@ -86,15 +77,15 @@ VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact
     VNDF_IMPL_TERM(6.0)
     VNDF_IMPL_TERM(7.0)
     VNDF_IMPL_TERM(8.0)
-        VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0)
-            VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(9.0)
+        VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
-                VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
-                    VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
-                        VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
+            VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
+                VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
+                    VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
 #endif
 #undef VNDF_IMPL_TERM
-                            return exact
+                        return exact
         ? sum
         : rough;
 }
@@ -104,14 +95,12 @@ struct vndf_impl_slope_mass {
     VNDF_REAL mass, density;
     VNDF_REAL bend;  // derivative of the density over the density
 };
-VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_incidence_slopes i,
-                                                            struct vndf_impl_slope_origin o, VNDF_REAL offset,
-                                                            int upper, int exact) {
+VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_incidence_slopes i, int edge,
+                                                            VNDF_REAL offset, int upper, int exact) {
     struct vndf_impl_slope_mass r;
-    VNDF_REAL t = o.base + offset, x = vndf_impl_abs(t);
-    VNDF_REAL projection = vndf_impl_slope_projection(i, o, offset);
-    struct vndf_impl_slope_square square = vndf_impl_slope_square_of(i, o.base, offset);
-    VNDF_REAL e = vndf_impl_scaled_exp(-square.head, -square.tail, VNDF_R(1.0) / i.sigma);
+    VNDF_REAL base = vndf_impl_slope_base(i, edge), t = base + offset, x = vndf_impl_abs(t);
+    VNDF_REAL projection = vndf_impl_slope_projection(i, edge, offset);
+    VNDF_REAL e = vndf_impl_slope_gaussian(i, edge, offset, VNDF_R(0.0), VNDF_R(1.0) / i.sigma);
     // For t < 0 the formula for C, with t replaced by |t|, gives 1 - C less the slopes that face away.
     VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx(x) * e;
     VNDF_REAL wing = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * vndf_impl_ierfcx(x) * e;
@@ -119,9 +108,9 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
     // Next to the edge 1 - C is a difference of nearly equal terms.
-    VNDF_REAL two_ay = VNDF_R(-2.0) * o.base * offset;
+    VNDF_REAL two_ay = VNDF_R(-2.0) * base * offset;
     VNDF_REAL near = offset / i.reach2 * offset * vndf_impl_edge_series(two_ay, offset, exact);
-    int series = upper && o.edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
+    int series = upper && edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
     r.mass = series ? near : mass;
     r.density = VNDF_1_SQRT_PI * projection * e;
     r.bend = i.s / projection - VNDF_R(2.0) * t;
@@ -153,16 +142,15 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
     VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    struct vndf_impl_slope_origin o = vndf_impl_slope_origin_of(i, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, o, i.front ? -x : visible / sine, 0, 1).mass;
+    int edge = vndf_impl_slope_is_edge(i, 0);
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? visible / sine : -x, 0, 1).mass;
     return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? cdf : VNDF_R(1.0);
 }
 
 // Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
 // the Gaussian is cut far away, and below sqrt(L reach2), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for
 // a = 0, and the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
-VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, struct vndf_impl_slope_origin o,
-                                        VNDF_REAL u) {
+VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, int near_edge, VNDF_REAL u) {
     VNDF_REAL rest = VNDF_R(1.0) - u, m = vndf_impl_min(u, rest);
     VNDF_REAL log_r = vndf_impl_log(VNDF_R(4.0) * u * rest);
     // -log(1 - m) to 1 % on [0, 1/2], and log(u) from it.
@@ -176,8 +164,8 @@ VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, str
     VNDF_REAL size = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), normal = u > VNDF_R(0.5) ? -size : size;
     VNDF_REAL g = normal + i.a;
     VNDF_REAL bow = VNDF_R(0.7) / (vndf_impl_abs(g) + VNDF_SQRT(VNDF_FMA(g, g, VNDF_R(1.4))));
-    VNDF_REAL in_front = o.edge ? vndf_impl_min(vndf_impl_max(g, VNDF_R(0.0)) + bow, edge)
-                                : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
+    VNDF_REAL in_front = near_edge ? vndf_impl_min(vndf_impl_max(g, VNDF_R(0.0)) + bow, edge)
+                                   : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
 
     // a^2 reach2 rises from 0 at a = 0 to 1/2.
     VNDF_REAL far = i.a * (i.a * i.reach2);
@@ -188,9 +176,9 @@ VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, str
 
 // One step from `offset`: Halley's on the logarithm of the mass over k, near 1 equal to 2 (mass - k) / (mass + k). Its
 // correction to Newton's is kept between 1/2 and 2.
-VNDF_FN VNDF_REAL vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, struct vndf_impl_slope_origin o,
-                                       VNDF_REAL k, int upper, int exact, VNDF_REAL offset) {
-    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, o, offset, upper, exact);
+VNDF_FN VNDF_REAL vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL k, int upper,
+                                       int exact, VNDF_REAL offset) {
+    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, edge, offset, upper, exact);
     VNDF_REAL excess = upper ? k - m.mass : m.mass - k, sum = m.mass + k;
     VNDF_REAL scale = m.mass / m.density;
     VNDF_REAL bend = excess * VNDF_FMA(m.bend, scale, upper ? VNDF_R(-1.0) : VNDF_R(1.0));
@@ -198,31 +186,28 @@ VNDF_FN VNDF_REAL vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, stru
     return offset + VNDF_R(2.0) * excess * scale / (sum + bend);
 }
 
-// The slope with the mass u beyond it; monotone in u.
-struct vndf_impl_slope_found {
-    VNDF_REAL offset;
-    struct vndf_impl_slope_origin origin;
-};
-VNDF_FN struct vndf_impl_slope_found vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i,
-                                                             VNDF_REAL u) {
-    struct vndf_impl_slope_found found;
-    int upper = u > VNDF_R(0.75);
+// The offset of the slope with the mass u beyond it, where u is `upper` and its slope near the `edge`; monotone in u.
+// Masses from 3/4 up count as upper: below, C itself is accurate enough, and above the series reaches far enough.
+VNDF_FN int vndf_impl_slope_is_upper(VNDF_REAL u) {
+    return u > VNDF_R(0.75);
+}
+VNDF_FN VNDF_REAL vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL u) {
+    int upper = vndf_impl_slope_is_upper(u);
     VNDF_REAL k = upper ? VNDF_R(1.0) - u : u;
-    found.origin = vndf_impl_slope_origin_of(i, upper);
-    // The bracket: the start is within [y / 2, 3/2 y] and [t - 1, t + 1]. Three steps (double: four) reach rounding.
-    VNDF_REAL start = vndf_impl_slope_start(i, found.origin, u);
-    VNDF_REAL low = found.origin.edge ? VNDF_R(0.5) * start : start - VNDF_R(1.0);
-    VNDF_REAL high = found.origin.edge ? VNDF_R(2.5) * start : start + VNDF_R(1.0);
+    // The bracket: from 1/2 to 5/2 of the start in y, otherwise 1 to either side. Three steps (double: four) reach
+    // rounding.
+    VNDF_REAL start = vndf_impl_slope_start(i, edge, u);
+    VNDF_REAL low = edge ? VNDF_R(0.5) * start : start - VNDF_R(1.0);
+    VNDF_REAL high = edge ? VNDF_R(2.5) * start : start + VNDF_R(1.0);
 #define VNDF_IMPL_STEP(from, exact) \
-    vndf_impl_min(vndf_impl_max(vndf_impl_slope_step(i, found.origin, k, upper, exact, from), low), high)
+    vndf_impl_min(vndf_impl_max(vndf_impl_slope_step(i, edge, k, upper, exact, from), low), high)
     VNDF_REAL offset = VNDF_IMPL_STEP(start, 0);
     offset = VNDF_IMPL_STEP(offset, 0);
 #if VNDF_DOUBLE
     offset = VNDF_IMPL_STEP(offset, 1);
 #endif
-    found.offset = VNDF_IMPL_STEP(offset, 1);
+    return VNDF_IMPL_STEP(offset, 1);
 #undef VNDF_IMPL_STEP
-    return found;
 }
 
 // The inverse of vndf_beckmann_slope_cdf.
@@ -235,8 +220,9 @@ VNDF_FN struct vndf_impl_slope_found vndf_impl_slope_of_mass(struct vndf_impl_in
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
     struct vndf_impl_incidence_slopes i =
         vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));
-    struct vndf_impl_slope_found found = vndf_impl_slope_of_mass(i, vndf_impl_u(u1));
-    VNDF_REAL x = -(found.origin.base + found.offset);
+    VNDF_REAL u = vndf_impl_u(u1);
+    int edge = vndf_impl_slope_is_edge(i, vndf_impl_slope_is_upper(u));
+    VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
     return cos_theta > VNDF_R(-1.0) ? x : -VNDF_REAL_MAX;
 }
 
@@ -281,20 +267,16 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     return m;
 }
 
-// The normal of the slope found along and of y across the plane of incidence, with its visible density.
-VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f,
-                                                          struct vndf_impl_slope_found along, VNDF_REAL y) {
+// The normal of a slope in and of the slope y across the plane of incidence, with its visible density.
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f, int edge,
+                                                          VNDF_REAL offset, VNDF_REAL y) {
     struct vndf_impl_incidence_slopes i = f.slopes;
-    struct vndf_impl_slope_square square = vndf_impl_slope_square_of(i, along.origin.base, along.offset);
-    VNDF_REAL exponent = VNDF_FMA(y, y, square.head);
-    VNDF_REAL low = square.tail + VNDF_FMA(y, y, square.head - exponent);
-    VNDF_REAL projection =
-        vndf_impl_max(vndf_impl_slope_projection(i, along.origin, along.offset), VNDF_R(0.0));
-    VNDF_REAL weight = vndf_impl_scaled_exp(-exponent, -low, VNDF_1_PI * projection / i.sigma);
+    VNDF_REAL projection = vndf_impl_max(vndf_impl_slope_projection(i, edge, offset), VNDF_R(0.0));
+    VNDF_REAL weight = vndf_impl_slope_gaussian(i, edge, offset, y, VNDF_1_PI * projection / i.sigma);
     // At wo = -z nothing is visible.
     weight = i.front || f.l > VNDF_R(0.0) ? weight : VNDF_R(0.0);
-    return vndf_impl_beckmann_unstretch(f.ex, f.ey, along.origin.base + along.offset, y, f.alpha_x, f.alpha_y,
-                                        weight);
+    VNDF_REAL t = vndf_impl_slope_base(i, edge) + offset;
+    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, y, f.alpha_x, f.alpha_y, weight);
 }
 
 #endif
