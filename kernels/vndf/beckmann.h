@@ -174,8 +174,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 
 //     than that: use a sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
-    VNDF_REAL cosine =
-        vndf_impl_dot(wo.x, wo.y, wo.z, wi.x, wi.y, wi.z) + vndf_impl_dot(wo.x, wo.y, wo.z, wo.x, wo.y, wo.z);
+    // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
+    struct vndf_impl_pair dot = vndf_impl_dot_pair(wo.x, wo.y, wo.z, x, y, z);
+    VNDF_REAL low =
+        VNDF_FMA(wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
+                 VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
+    VNDF_REAL cosine = dot.head + (dot.tail + low);
     VNDF_REAL tx = x / z, ty = y / z;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
     return vndf_impl_beckmann_visible(wo, x, y, z, cosine, rise, VNDF_R(0.25), alpha);
