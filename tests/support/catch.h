@@ -1,8 +1,10 @@
-// Catch2 2.13 (Debian 12) or 3 (Debian 13) under the names of version 3.
+// Catch2 2.13 (Debian 12) or 3 (Debian 13), with the same names from either.
 #pragma once
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
+
+using Catch::Approx;
 #else
 #include <catch2/catch.hpp>
 

@@ -4,5 +4,9 @@ struct planted_type {
     int vndf_member;
 };
 static const int planted_variable = PLANTED_MACRO;
-static inline int planted_function() { return planted_variable; }
-static inline int vndf_allowed() { return planted_function(); }
+static inline int planted_function() {
+    return planted_variable;
+}
+static inline int vndf_allowed() {
+    return planted_function();
+}
