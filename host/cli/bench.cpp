@@ -173,7 +173,8 @@ void add_bench(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
     command->add_option("--compare", options->compare, "show times relative to those of this JSON file");
-    command->callback([options, &common] { run_bench(*options, common); });
+    command->callback(
+        [options, &common] { common.action = [options, &common] { run_bench(*options, common); }; });
 }
 
 }  // namespace vndf::cli

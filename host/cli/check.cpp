@@ -81,7 +81,8 @@ void add_check(CLI::App& app, Common& common) {
     command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
     command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
     command->add_option("--junit", options->junit, "write the findings as JUnit XML (- for standard output)");
-    command->callback([options, &common] { run_check(*options, common); });
+    command->callback(
+        [options, &common] { common.action = [options, &common] { run_check(*options, common); }; });
 }
 
 }  // namespace vndf::cli

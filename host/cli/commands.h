@@ -1,7 +1,8 @@
-// The commands. Each add_* defines its options and what runs when it is chosen.
+// The commands. Each add_* defines its options and the action when it is chosen.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -11,10 +12,11 @@
 
 namespace vndf::cli {
 
-// Options of every command.
+// Options of every command, and what is to be done.
 struct Common {
     std::uint64_t seed = 1;
     bool quiet = false;
+    std::function<void()> action;  // of the command chosen; runs once every argument is found good
     int exit_status = 0;  // set by a command that ran to its end with a verdict: 1 for a failed check
 };
 

@@ -17,9 +17,9 @@
 namespace vndf::cli {
 namespace {
 
-constexpr std::size_t read_size = 1 << 20;
-constexpr std::size_t longest_line =
-    1 << 16;  // no row comes near; a file without line ends must not fill memory
+constexpr std::size_t read_size = 1 << 16;
+// No row comes near; a file without line ends must not fill memory.
+constexpr std::size_t longest_line = 1 << 16;
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
@@ -156,8 +156,11 @@ template <class R>
 void TableReader<R>::parse_row(std::string_view line, std::vector<std::vector<R>>& table) const {
     const std::size_t cells = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
     if (cells != order_.size()) {
-        throw InputError(fmt::format("{}: {} row: {} cells where the header has {}", lines_.position(),
-                                     cells < order_.size() ? "short" : "long", cells, order_.size()));
+        const bool shorter = cells < order_.size();
+        const std::string& column = columns_[order_[shorter ? cells : order_.size() - 1]];
+        throw InputError(fmt::format("{}: {} row: {} cells where the header has {}; {} column {}",
+                                     lines_.position(), shorter ? "short" : "long", cells, order_.size(),
+                                     shorter ? "nothing for" : "nothing belongs behind", column));
     }
     std::size_t i = 0;
     for_each_cell(line, [&](std::string_view cell) {

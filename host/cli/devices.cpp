@@ -25,18 +25,20 @@ void print(const runtime::Device& d) {
     fmt::print("  {:32}{:.1f} GiB\n", "memory", static_cast<double>(d.memory_bytes) / (1u << 30));
 }
 
+void print_devices() {
+    const auto devices = runtime::devices();
+    if (devices.empty()) {
+        throw DeviceError(
+            "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
+    }
+    for (const runtime::Device& device : devices) print(device);
+}
+
 }  // namespace
 
-void add_devices(CLI::App& app, Common&) {
+void add_devices(CLI::App& app, Common& common) {
     app.add_subcommand("devices", "every OpenCL device, with the capabilities that matter here")
-        ->callback([] {
-            const auto devices = runtime::devices();
-            if (devices.empty()) {
-                throw DeviceError(
-                    "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
-            }
-            for (const runtime::Device& device : devices) print(device);
-        });
+        ->callback([&common] { common.action = print_devices; });
 }
 
 }  // namespace vndf::cli

@@ -113,7 +113,7 @@ void add_eval(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_option("--output", eval->output, "CSV to write, or -")->capture_default_str();
     command->add_flag("--hex", eval->hex, "C99 hex numbers in the output");
-    command->callback([eval, &common] { run(*eval, common); });
+    command->callback([eval, &common] { common.action = [eval, &common] { run(*eval, common); }; });
 }
 
 }  // namespace vndf::cli

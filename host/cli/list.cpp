@@ -44,11 +44,11 @@ void print_table() {
 
 }  // namespace
 
-void add_list(CLI::App& app, Common&) {
+void add_list(CLI::App& app, Common& common) {
     CLI::App* command = app.add_subcommand("list", "the functions, with their arguments and results");
     const auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "everything that the registry knows, as JSON");
-    command->callback([json] { *json ? print_json() : print_table(); });
+    command->callback([json, &common] { common.action = [json] { *json ? print_json() : print_table(); }; });
 }
 
 }  // namespace vndf::cli

@@ -1,109 +1,44 @@
-// clvndf: the command line.
-#include <charconv>
+// clvndf: the command.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <limits>
 #include <string>
 #include <system_error>
-#include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
-#include "cli/commands.h"
+#include "cli/command_line.h"
 #include "error.h"
-
-namespace vndf::cli {
-
-void Target::add_to(CLI::App& command) {
-    command.add_option(
-        "--device", device,
-        "first device whose platform or device name contains this\n(default: $CLVNDF_DEVICE, else "
-        "PoCL's CPU device, else the first device)");
-    command.add_option("--math", math_name, "policy of elementary functions: strict, builtin or native")
-        ->check(CLI::IsMember({"strict", "builtin", "native"}))
-        ->capture_default_str();
-    command.add_option("--real", real_name, "real type: float or double")
-        ->check(CLI::IsMember({"float", "double"}))
-        ->capture_default_str();
-}
-
-runtime::Math Target::math() const {
-    using runtime::Math;
-    return math_name == "strict" ? Math::strict : math_name == "builtin" ? Math::builtin : Math::native;
-}
-
-runtime::Real Target::real() const {
-    return real_name == "float" ? runtime::Real::f32 : runtime::Real::f64;
-}
-
-runtime::Device Target::choose(const Common& common) const {
-    const runtime::Choice choice = runtime::choose_device(device);
-    if (!choice.note.empty() && !common.quiet) fmt::print(stderr, "clvndf: {}\n", choice.note);
-    return choice.device;
-}
 
 namespace {
 
-// What CLI11 found wrong, in one line; with the commands there are if it was the command.
-std::string explain(const CLI::App& app, const CLI::ParseError& error) {
-    if (const auto chosen = app.get_subcommands(); !chosen.empty()) {
-        return fmt::format("{} (see clvndf {} --help)", error.what(), chosen.front()->get_name());
+// A file opened while a standard stream is closed would take its number, and what is meant for the stream.
+void occupy_standard_streams() {
+    for (int stream = 0; stream <= 2; ++stream) {
+        // Of the wrong mode, so that using the stream fails as it would have.
+        if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
     }
-    std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        commands.push_back(command->get_name());
-    }
-    const auto rest = app.remaining();
-    const std::string found =
-        rest.empty() ? error.what() : fmt::format("unknown command or option '{}'", rest.front());
-    return fmt::format("{}; the commands are {} (see clvndf --help)", found, fmt::join(commands, ", "));
 }
 
-// Takes the seed from its text; CLI11 would let -1 wrap around.
-void add_seed(CLI::App& app, Common& common) {
-    const auto parse = [&common](const std::string& text) {
-        const char* const last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, common.seed);
-        if (error == std::errc() && end == last) return;
-        throw InputError(fmt::format("--seed: '{}' is no seed; 0 to {} are allowed", text,
-                                     std::numeric_limits<std::uint64_t>::max()));
-    };
-    app.add_option_function<std::string>("--seed", parse, "seed of every random number")->default_str("1");
-}
-
-int run(int argc, char** argv) {
-    CLI::App app("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals",
-                 "clvndf");
-    app.set_version_flag("--version", "clvndf " CLVNDF_VERSION);
-    app.require_subcommand(1);
-    app.fallthrough();
-    Common common;
-    add_seed(app, common);
-    app.add_flag("--quiet", common.quiet, "no progress and no remarks on stderr");
-    add_devices(app, common);
-    add_list(app, common);
-    add_eval(app, common);
-    add_check(app, common);
-#ifdef CLVNDF_BENCH
-    add_bench(app, common);
-#endif
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help_or_version) {
-        return app.exit(help_or_version);
-    } catch (const CLI::ParseError& error) {
-        throw InputError(explain(app, error));
-    }
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) throw InputError("standard output: cannot write");
-    return common.exit_status;
+// Names in messages come from outside: nothing in them may end the line or reach for the terminal.
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+    return text;
 }
 
 }  // namespace
-}  // namespace vndf::cli
 
 int main(int argc, char** argv) {
+    occupy_standard_streams();
     try {
-        return vndf::cli::run(argc, argv);
+        vndf::cli::CommandLine line;
+        line.parse(argc, argv);
+        return line.run();
+    } catch (const vndf::InputError& error) {
+        fmt::print(stderr, "clvndf: {}\n", one_line(error.what()));
+        return error.exit_status();
     } catch (const vndf::Error& error) {
         fmt::print(stderr, "clvndf: {}\n", error.what());
         return error.exit_status();

@@ -1,0 +1,27 @@
+// The command line as a whole: what the arguments ask for, apart from doing it.
+#pragma once
+
+#include "cli/commands.h"
+
+namespace vndf::cli {
+
+class CommandLine {
+  public:
+    CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    // Throws InputError at what no command takes; touches no file and no device. Once only.
+    void parse(int argc, const char* const* argv);
+
+    // Does what was asked for; returns the exit status.
+    int run();
+
+    const Common& common() const { return common_; }
+
+  private:
+    CLI::App app_;
+    Common common_;
+};
+
+}  // namespace vndf::cli
