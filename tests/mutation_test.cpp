@@ -1,0 +1,103 @@
+// Seeded mistakes: `clvndf check` notices every one, and every kind of check notices one.
+#include <algorithm>
+#include <set>
+
+#include "conformance/check.h"
+#include "mutants.h"
+#include "support/catch.h"
+
+using namespace vndf;
+using namespace vndf::conformance;
+
+namespace {
+
+std::vector<runtime::Substitution> substitutions() {
+    std::vector<runtime::Substitution> all;
+    for (const Mutant& mutant : mutants())
+        all.push_back({"kernels/vndf/" + mutant.file, mutant.old_text, mutant.new_text,
+                       static_cast<int>(all.size()) + 1});
+    return all;
+}
+
+// The quick check of the mutant's functions with the mistake switched in; 0: none.
+Report check_mutant(int id, const std::string& only) {
+    const auto selected = select(only);
+    runtime::ProgramOptions program;
+    program.functions = needed(selected);
+    program.substitutions = substitutions();
+    program.mutant = id;
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict,
+                                       runtime::Real::f32, program);
+    CheckOptions options;
+    options.quick = true;
+    return check(evaluator, runtime::Math::strict, selected, options);
+}
+
+std::set<std::string> failed_checks(const Report& report) {
+    std::set<std::string> names;
+    for (const FunctionReport& function : report.functions)
+        for (const Finding& finding : function.findings)
+            if (!finding.passed()) names.insert(finding.check);
+    return names;
+}
+
+bool any_begins(const std::set<std::string>& names, const std::string& beginning) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name.compare(0, beginning.size(), beginning) == 0;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("check notices every seeded mistake") {
+    for (std::size_t i = 0; i < mutants().size(); ++i) {
+        const Mutant& mutant = mutants()[i];
+        INFO(mutant.mistake);
+        const Report report = check_mutant(static_cast<int>(i) + 1, mutant.only);
+        CHECK_FALSE(report.passed());
+        const std::set<std::string> failed = failed_checks(report);
+        for (const std::string& check : mutant.noticed_by) {
+            INFO(check);
+            CHECK(any_begins(failed, check));
+        }
+    }
+}
+
+TEST_CASE("without a mistake switched in, the same sources pass") {
+    for (const char* only : {"vndf_ggx_sample_wm_heitz2017", "vndf_ggx_pdf_w?"}) {
+        const Report report = check_mutant(0, only);
+        INFO(format_table(report));
+        CHECK(report.passed());
+    }
+}
+
+TEST_CASE("every kind of check notices a seeded mistake") {
+    for (const char* kind : {"pointwise, front",
+                             "pointwise, back",
+                             "pointwise, core",
+                             "pointwise, maximum",
+                             "finite",
+                             "unit length",
+                             "normal above the surface",
+                             "normal faces wo",
+                             "chi2 of the pivots",
+                             "KS of pivot 1",
+                             "KS of pivot 2",
+                             "chi2 of the directions",
+                             "means",
+                             "integral",
+                             "same direction as the plain form",
+                             "density of the exact sample",
+                             "density finite",
+                             "density 0 outside",
+                             "agrees with the separate density",
+                             "fit: "}) {
+        INFO(kind);
+        CHECK(std::any_of(mutants().begin(), mutants().end(), [&](const Mutant& mutant) {
+            return std::any_of(mutant.noticed_by.begin(), mutant.noticed_by.end(),
+                               [&](const std::string& check) {
+                                   return check.compare(0, std::string(kind).size(), kind) == 0;
+                               });
+        }));
+    }
+}
