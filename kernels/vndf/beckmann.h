@@ -3,10 +3,10 @@
 // Conventions of vndf.h; the names of ggx.h. `alpha` is (alpha_x, alpha_y), each raised to 1e-8. Densities and terms
 // use the vectors literally, without normalising them.
 //
-// Symbols: l = |(alpha_x w.x, alpha_y w.y)|, a = w.z / l (the cotangent of the stretched polar angle), and
-// I(x) = 1 - sqrt(pi) x erfcx(x) = sqrt(pi) e^(x^2) ierfc(x). The part of the surface that is hidden from a is
-// hidden(a) = l e^(-a^2) I(|a|) / (2 sqrt(pi)): sigma is w.z + hidden above the horizon and hidden below it, so that
-// nothing cancels. Where e^(-a^2) meets another exponential, the exponents are combined first.
+// Symbols: l = |(alpha_x w.x, alpha_y w.y)|, a = w.z / l (the cotangent of the stretched polar angle),
+// I(x) = e^(x^2) ierfc(x) / 2. What w does not see has the area l e^(-a^2) I(|a|): sigma is w.z plus that above the horizon
+// and just that below it, so that nothing cancels. Where e^(-a^2) meets another exponential, the exponents are combined
+// first.
 //
 // Accuracy, unless stated: relative error in units of 2^-24 (double: 2^-53), times (1 + 2 q) where q is the exponent of
 // the Gaussian; asserted by `clvndf check`.
@@ -20,7 +20,7 @@
 // A direction as the slopes of the stretched surface see it.
 struct vndf_impl_slopes {
     VNDF_REAL a;         // |cot theta|, at most 2^60
-    VNDF_REAL hidden;    // I(|a|) / (2 sqrt(pi)): without l e^(-a^2)
+    VNDF_REAL hidden;    // I(|a|)
     VNDF_REAL gaussian;  // e^(-a^2)
 };
 // 2^60: beyond it a Gaussian is cut nowhere, or seen at a cosine that rounds to 0; l = 0 is normal incidence.
@@ -28,7 +28,7 @@ VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
     struct vndf_impl_slopes s;
     VNDF_REAL limit = VNDF_R(1152921504606846976.0);
     s.a = l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
-    s.hidden = VNDF_R(0.5) * VNDF_1_SQRT_PI * vndf_impl_ierfcx(s.a);
+    s.hidden = vndf_impl_ierfcx(s.a);
     s.gaussian = vndf_impl_expx2(s.a);
     return s;
 }
@@ -65,7 +65,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 }
 
 // Smith's Lambda.
-// Source: Heitz 2014, Equation 66, as e^(-a^2) I(a) / (2 sqrt(pi) a), which does not cancel.
+// Source: Heitz 2014, Equation 66, as e^(-a^2) I(a) / a, which does not cancel.
 // w: unit vector, local frame.
 // return: >= 0 above the horizon. Below it, sigma(w) / w.z - 1 = -1 - Lambda(-w), so that (1 + Lambda) w.z is the
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
@@ -79,7 +79,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 }
 
 // The projected area of the microsurface seen from w.
-// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2: w.z / G1(w), as max(w.z, 0) + hidden(a).
+// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2: w.z / G1(w), as max(w.z, 0) + l e^(-a^2) I(|a|).
 // w: unit vector, local frame, anywhere on the sphere.
 // return: >= 0, per unit area of the macrosurface. Integral of D max(w . m, 0).
 // Accuracy: 8, below the horizon 8 (1 + 2 q), q = a^2.
@@ -90,12 +90,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 }
 
 // Smith masking of one direction, for a normal that faces it.
-// Source: Heitz 2014, Equation 43: 1 / (1 + Lambda).
+// Source: Heitz 2014, Equation 43: 1 / (1 + Lambda) = w.z / sigma(w).
 // w: unit vector, local frame.
 // return: in [0, 1]; 0 for w.z <= 0.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return w.z > VNDF_R(0.0) ? VNDF_R(1.0) / (VNDF_R(1.0) + vndf_beckmann_lambda(w, alpha)) : VNDF_R(0.0);
+    return w.z > VNDF_R(0.0) ? w.z / vndf_beckmann_sigma(w, alpha) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
@@ -130,24 +130,44 @@ VNDF_FN VNDF_REAL vndf_impl_slope_across(VNDF_REAL3 wo, VNDF_REAL x, VNDF_REAL y
     return (vndf_impl_difference_of_products(p, ay2, q, ax2) + low) / (ax * ay);
 }
 
+// The exponent of D / sigma(wo) behind the surface, q - a^2, for a normal that faces away from wo, as a sum of two
+// numbers: q is small beside a^2 = (wo.z / l)^2, which is computed in twice the precision.
+VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL q, VNDF_REAL alpha_x,
+                                                        VNDF_REAL alpha_y) {
+    VNDF_REAL up = VNDF_R(134217728.0), ax = alpha_x * up, ay = alpha_y * up, z = wo.z * up;
+    VNDF_REAL x = ax * wo.x, y = ay * wo.y, x2 = x * x, y2 = y * y, l2 = x2 + y2, z2 = z * z, a2 = z2 / l2;
+    VNDF_REAL cross = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
+    VNDF_REAL squares = VNDF_FMA(x, x, -x2) + (VNDF_FMA(y, y, -y2) + vndf_impl_sum_error(x2, y2, l2));
+    VNDF_REAL l2_low = VNDF_FMA(VNDF_R(2.0), cross, squares);
+    VNDF_REAL a2_low = (VNDF_FMA(-a2, l2, z2) + (VNDF_FMA(z, z, -z2) - a2 * l2_low)) / l2;
+    struct vndf_impl_pair exponent;
+    exponent.head = q - a2;
+    exponent.tail = vndf_impl_sum_error(q, -a2, exponent.head) - a2_low;
+    return exponent;
+}
+
 // weight D / sigma(wo) for a normal (x, y, z): 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
-// rounding. Behind the surface the exponents of D and sigma combine: with the slope A + tau along wo and y across,
-// A = |a|, q - A^2 = tau (2 A + tau) + y^2.
+// rounding. Behind the surface the exponents of D and sigma combine: with the slope |a| + tau along wo and y across,
+// q - a^2 = tau (2 |a| + tau) + y^2. A normal that faces away (tau < 0) occurs only as the half vector of two rounded
+// directions.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_REAL y, VNDF_REAL z,
-                                             VNDF_REAL cosine, VNDF_REAL rise, VNDF_REAL weight,
+                                             VNDF_REAL cosine, int rounded, VNDF_REAL rise, VNDF_REAL weight,
                                              VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, wo.z);
     int front = wo.z >= VNDF_R(0.0);
-    VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z;
+    VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z, q = VNDF_FMA(sx, sx, sy * sy);
     VNDF_REAL tau = cosine / (z * v.l);
     VNDF_REAL across = vndf_impl_slope_across(wo, x, y, v.alpha_x, v.alpha_y) / (z * v.l);
     VNDF_REAL steep = VNDF_FMA(tau, VNDF_FMA(VNDF_R(2.0), s.a, tau), across * across);
-    VNDF_REAL exponent = front ? VNDF_FMA(sx, sx, sy * sy) : steep;
+    struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
+    int away = rounded && !front && tau < VNDF_R(0.0);
+    VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
     // Small factors first: below the horizon l I(a) may be as small as weight.
     VNDF_REAL share = front ? weight / VNDF_FMA(v.l * s.gaussian, s.hidden, wo.z) : weight / v.l / s.hidden;
     VNDF_REAL scale = VNDF_1_PI * share * rise / (v.alpha_x * v.alpha_y) * rise;
-    VNDF_REAL result = vndf_impl_finite(vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale));
+    VNDF_REAL result =
+        vndf_impl_finite(vndf_impl_scaled_exp(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale));
     return z > VNDF_R(0.0) && (front || v.l > VNDF_R(0.0)) ? result : VNDF_R(0.0);
 }
 
@@ -161,7 +181,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
     VNDF_REAL rise = VNDF_R(1.0) / (wm.z * wm.z);
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, wm.x, wm.y, wm.z, cosine, rise, cosine, alpha);
+    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, wm.x, wm.y, wm.z, cosine, 0, rise, cosine, alpha);
     return cosine > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
@@ -176,13 +196,13 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
     VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
     // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
     struct vndf_impl_pair dot = vndf_impl_dot_pair(wo.x, wo.y, wo.z, x, y, z);
-    VNDF_REAL low =
-        VNDF_FMA(wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
-                 VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
+    VNDF_REAL low = VNDF_FMA(
+        wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
+        VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
     VNDF_REAL cosine = dot.head + (dot.tail + low);
     VNDF_REAL tx = x / z, ty = y / z;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
-    return vndf_impl_beckmann_visible(wo, x, y, z, cosine, rise, VNDF_R(0.25), alpha);
+    return vndf_impl_beckmann_visible(wo, x, y, z, cosine, 1, rise, VNDF_R(0.25), alpha);
 }
 
 // The density of the plain NDF sampler: D(wm) wm.z.

@@ -3,7 +3,7 @@
 // c, s are cosine and sine of the polar angle of the view direction, a = c / s. A normal (-x, ., 1) has the slope t = -x
 // towards the view direction, and the distance y = t + a > 0 from the edge of the visible. The density of t is
 // s y e^(-t^2) / (sqrt(pi) sigma); with I of beckmann.h, the distribution function of x = -t is
-//     C = [s y sqrt(pi) erfcx(t) + s I(t)] e^(-t^2) / (2 sqrt(pi) sigma),
+//     C = [s y erfcx(t) / 2 + s I(t)] e^(-t^2) / sigma,
 // all terms positive for t > 0. Masses above 3/4 are replaced by their complements, also formed without cancellation.
 #ifndef VNDF_BECKMANN_SLOPES_H
 #define VNDF_BECKMANN_SLOPES_H
@@ -78,7 +78,9 @@ VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact
     VNDF_IMPL_TERM(7.0)
     VNDF_IMPL_TERM(8.0)
     VNDF_IMPL_TERM(9.0)
-        VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(10.0)
+    VNDF_IMPL_TERM(11.0)
+        VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
             VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
                 VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
@@ -103,7 +105,7 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     VNDF_REAL e = vndf_impl_slope_gaussian(i, edge, offset, VNDF_R(0.0), VNDF_R(1.0) / i.sigma);
     // For t < 0 the formula for C, with t replaced by |t|, gives 1 - C less the slopes that face away.
     VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx(x) * e;
-    VNDF_REAL wing = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * vndf_impl_ierfcx(x) * e;
+    VNDF_REAL wing = i.s * vndf_impl_ierfcx(x) * e;
     int beyond = t >= VNDF_R(0.0);
     VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;

@@ -205,9 +205,9 @@ CASES = [
          kind="relative", degree=dict(float=12, double=27),
          pieces=[piece(lambda z: erfcx(half_line(z)) * flattened(half_line(z)) /
                        (1 + 2 * half_line(z) / mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
-    dict(name="IERFCX", what="(1 - sqrt(pi) x erfcx(x)) (1 + sqrt(pi) x + 2 x^2) in z = (x - 2) / (x + 2), x >= 0",
+    dict(name="IERFCX", what="exp(x^2) ierfc(x) (1 + sqrt(pi) x + 2 x^2) / 2 in z = (x - 2) / (x + 2), x >= 0",
          kind="relative", degree=dict(float=13, double=29),
-         pieces=[piece(lambda z: ierfcx(half_line(z)) * flattened(half_line(z)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
+         pieces=[piece(lambda z: ierfcx(half_line(z)) * flattened(half_line(z)) / (2 * mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
     dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then R / sqrt(w) in"
          " z = 1 / sqrt(w) - 1/4, w <= 88 (float), 40 (double); last (double) in z = 1 / sqrt(w) - 1/10, w <= 744",
          kind="relative", degree=dict(float=10, double=24),
