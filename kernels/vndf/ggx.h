@@ -13,11 +13,14 @@
 #include "math.h"
 #include "frame.h"
 
-// q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z).
+// q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its
+// rounding error along.
 VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
                                   VNDF_REAL alpha_y) {
-    VNDF_REAL sx = x / alpha_x, sy = y / alpha_y;
-    return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, z * z));
+    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
+    VNDF_REAL low_x = VNDF_FMA(-sx, alpha_x, x) * rcp_x, low_y = VNDF_FMA(-sy, alpha_y, y) * rcp_y;
+    VNDF_REAL low = VNDF_R(2.0) * VNDF_FMA(sx, low_x, sy * low_y);
+    return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, VNDF_FMA(z, z, low)));
 }
 
 // 2 sigma = z + t, or l^2 / (t - z) for z < 0, where the sum would cancel.
@@ -50,8 +53,9 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
-    VNDF_REAL rcp_q = VNDF_R(1.0) / vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y);
-    return vndf_impl_finite(VNDF_1_PI * rcp_q / alpha_x / alpha_y * rcp_q);
+    VNDF_REAL q = vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y), rcp_q = VNDF_R(1.0) / q;
+    // A slope whose square overflows leaves q infinite or NaN: nothing of the density is left.
+    return q < VNDF_REAL_MAX ? vndf_impl_finite(VNDF_1_PI * rcp_q / alpha_x / alpha_y * rcp_q) : VNDF_R(0.0);
 }
 
 // Smith's Lambda.
