@@ -80,7 +80,8 @@ VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact
     VNDF_IMPL_TERM(9.0)
     VNDF_IMPL_TERM(10.0)
     VNDF_IMPL_TERM(11.0)
-        VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(12.0)
+        VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
             VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
                 VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
@@ -104,8 +105,9 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     VNDF_REAL projection = vndf_impl_slope_projection(i, edge, offset);
     VNDF_REAL e = vndf_impl_slope_gaussian(i, edge, offset, VNDF_R(0.0), VNDF_R(1.0) / i.sigma);
     // For t < 0 the formula for C, with t replaced by |t|, gives 1 - C less the slopes that face away.
-    VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx(x) * e;
-    VNDF_REAL wing = i.s * vndf_impl_ierfcx(x) * e;
+    VNDF_REAL unit = e / vndf_impl_erfcx_denominator(x);
+    VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx_numerator(x) * unit;
+    VNDF_REAL wing = i.s * vndf_impl_ierfcx_numerator(x) * unit;
     int beyond = t >= VNDF_R(0.0);
     VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
