@@ -1,0 +1,2 @@
+#define VNDF_REAL double
+#include "support/math_accuracy.h"

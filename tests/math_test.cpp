@@ -1,0 +1,2 @@
+#define VNDF_REAL float
+#include "support/math_accuracy.h"
