@@ -114,7 +114,7 @@ inline const std::vector<Mutant>& mutants() {
          "cap.p = front ? large : small;",
          "cap.p = VNDF_R(1.0) + cap.z;",
          "vndf_ggx_sample_wm_heitz2018",
-         {"pointwise, back", "density of"}},
+         {"pointwise, back", "density of the exact sample"}},
         {"no azimuth of a vertical view direction",
          "frame.h",
          "v.rcp_l = v.l > VNDF_R(0.0) ? VNDF_R(1.0) / v.l : VNDF_R(0.0);",
@@ -145,7 +145,7 @@ inline const std::vector<Mutant>& mutants() {
          "vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(wo, alpha, VNDF_MAKE2(u.x, u.y * "
          "VNDF_R(0.9999999))))",
          "vndf_ggx_sample_wm_dupuy2023_with_pdf",
-         {"same direction"}},
+         {"same direction as the plain form"}},
         {"a density of the wrong sign",
          "ggx.h",
          "VNDF_REAL pdf = VNDF_1_PI * (weight",
