@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "reference/distribution.h"
-#include "reference/maps.h"
+#include "reference/beckmann_maps.h"
+#include "reference/ggx_maps.h"
 #include "reference/reference.h"
 #include "registry.h"
 #include "support/catch.h"
@@ -24,7 +25,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// --- The table of 50 digits ------------------------------------------------------------------------------------
+// --- The table of 50 digits ---
 
 struct Row {
     std::string function;
@@ -122,7 +123,7 @@ Worst<R> worst_of(const std::string& part, const std::function<void(const Row&, 
 
 constexpr double table_bound = 64;
 
-// --- Lobes -----------------------------------------------------------------------------------------------------
+// --- Lobes ---
 
 struct Lobe {
     double cos_theta, phi, ax, ay;

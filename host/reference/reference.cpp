@@ -12,8 +12,7 @@
 namespace vndf::reference {
 namespace {
 
-// --- Scalars to arguments
-// --------------------------------------------------------------------------------------
+// --- Scalars to arguments ---
 
 // NaN stays NaN.
 template <class R>
@@ -73,8 +72,7 @@ R finite(const R& x, Precision precision) {
     return x > bound ? bound : x < -bound ? R(-bound) : x;
 }
 
-// --- Samplers
-// --------------------------------------------------------------------------------------------------
+// --- Samplers ---
 
 template <class R, Sample<R> (*map)(const Arguments<R>&), Layout layout>
 void evaluate_sampler(const R* in, R* out, Precision precision) {
@@ -141,8 +139,7 @@ struct Entry {
 constexpr Condition conditions[] = {VNDF_REFERENCE_SAMPLERS(VNDF_CONDITION)};
 #undef VNDF_CONDITION
 
-// --- Terms
-// -----------------------------------------------------------------------------------------------------
+// --- Terms ---
 
 // The scalars of one call, taken in order.
 template <class R>

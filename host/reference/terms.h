@@ -1,7 +1,8 @@
 // The distributions' terms and densities, of the vectors as given (not normalised).
 #pragma once
 
-#include "reference/maps.h"
+#include "reference/beckmann_maps.h"
+#include "reference/ggx_maps.h"
 
 namespace vndf::reference {
 

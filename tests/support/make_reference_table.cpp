@@ -64,7 +64,7 @@ Vec reflect(const Vec& i, const Vec& m) {
     return 2 * dot(i, m) * m - i;
 }
 
-// --- Quadrature and inversion ----------------------------------------------------------------------------------
+// --- Quadrature and inversion ---
 
 // Neighbours of a point, for its condition number, need fewer digits, and start from the roots found there.
 struct Effort {
@@ -128,7 +128,7 @@ Real invert(const std::function<Real(Real)>& density, const Real& lo, const Real
     throw std::runtime_error("no convergence");
 }
 
-// --- Distributions -----------------------------------------------------------------------------------------------
+// --- Distributions ---
 
 enum class Ndf { ggx, beckmann };
 
@@ -219,7 +219,7 @@ Real pdf_wi_bounded(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay
     return d(Ndf::ggx, m, ax, ay) / (2 * (k * wo.z + norm(i)));
 }
 
-// --- Samplers: direction and density -----------------------------------------------------------------------------
+// --- Samplers: direction and density ---
 
 struct Sample {
     Vec direction;
@@ -412,7 +412,7 @@ Sample three_branches(const Vec& wo, const Real& ax, const Real& ay, Real u1, Re
     return beckmann_sample(wo, s, x, erf_inv(2 * u2 - 1), ax, ay);
 }
 
-// --- Names -------------------------------------------------------------------------------------------------------
+// --- Names ---
 
 Vec vec(const Reals& in, int at) {
     return {in[at], in[at + 1], in[at + 2]};
@@ -555,7 +555,7 @@ std::map<std::string, Evaluation> evaluations() {
     return all;
 }
 
-// --- Points ------------------------------------------------------------------------------------------------------
+// --- Points ---
 
 struct Lobe {
     double cos_theta, phi, ax, ay;
@@ -605,8 +605,8 @@ class Table {
         const std::size_t components = std::min<std::size_t>(3, out.size());
         const Real scale = out.size() == 1 ? Real(abs(out[0])) : Real(1), pdf = with_pdf ? out[3] : Real(0);
         Real condition = 0, pdf_condition = 0;
-        const Real step(1e-12);
-        effort.quadrature = Real(1e-30), effort.residual = Real(1e-26), effort.again = true;
+        const Real step(1e-8);
+        effort.quadrature = Real(1e-42), effort.residual = Real(1e-39), effort.again = true;
         for (std::size_t j = 0; j < x.size() && scale > 0; ++j) {
             // At normal incidence the sine has no derivative by the cosine.
             if (x[j] == 0 || (name.find("_slope_") != std::string::npos && j == 0 && x[j] == 1)) continue;
