@@ -34,11 +34,6 @@ Vec3d plain(const Vec3<double>& v) {
     return {v.x, v.y, v.z};
 }
 
-Vec3d rotated(const std::array<Vec3d, 3>& rows, double x, double y, double z) {
-    const auto row = [&](const Vec3d& r) { return r.x * x + r.y * y + r.z * z; };
-    return {row(rows[0]), row(rows[1]), row(rows[2])};
-}
-
 double clip(double p) {
     return p > 0 ? p < 1 ? p : 1 : 0;  // NaN: 0
 }
@@ -84,14 +79,6 @@ Distribution::Distribution(std::string_view sampler, const double* in, Precision
     a_ = s.a, weight_ = s.weight;
     const Bound<double> b = bound(alpha_x_, alpha_y_, hypotenuse(wo.x, wo.y), wo.z);
     k_ = b.k, gap_ = b.gap, cap_ = (1 + k_ * cos_) / 2;
-}
-
-// The direction, or the half vector of a reflected one, in the local frame, of any length.
-inline Vec3d Distribution::half(double x, double y, double z) const {
-    if (world_) return rotated(frame_, x, y, z);
-    if (!reflected_) return {x, y, z};
-    const double rcp = 1 / std::sqrt(x * x + y * y + z * z);  // of a rounded unit vector
-    return {wo_.x + x * rcp, wo_.y + y * rcp, wo_.z + z * rcp};
 }
 
 // --- Pivots ---

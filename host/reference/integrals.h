@@ -65,4 +65,17 @@ struct Distribution::Range {
     double turn;   // tan(phi - phi_e)
 };
 
+inline Vec3d rotate(const std::array<Vec3d, 3>& rows, double x, double y, double z) {
+    const auto row = [&](const Vec3d& r) { return r.x * x + r.y * y + r.z * z; };
+    return {row(rows[0]), row(rows[1]), row(rows[2])};
+}
+
+// The direction, or the half vector of a reflected one, in the local frame, of any length.
+inline Vec3d Distribution::half(double x, double y, double z) const {
+    if (world_) return rotate(frame_, x, y, z);
+    if (!reflected_) return {x, y, z};
+    const double rcp = 1 / std::sqrt(x * x + y * y + z * z);  // of a rounded unit vector
+    return {wo_.x + x * rcp, wo_.y + y * rcp, wo_.z + z * rcp};
+}
+
 }  // namespace vndf::reference
