@@ -17,7 +17,7 @@ struct ProgramOptions {
     std::vector<std::string> functions;  // registered names to compile; empty: all
     std::string build_options;           // appended, e.g. "-cl-fast-relaxed-math"
     std::vector<Substitution> substitutions;
-    int mutant = 0;  // the substitution switched on; 0: none
+    int mutant = 0;                               // the substitution switched on; 0: none
     std::string root = "kernels/batch/batch.cl";  // the embedded source with the entry points
     std::string more_source;                      // OpenCL C after it
     cl::Context context;                          // shared with the caller; default: a new one

@@ -14,6 +14,8 @@
 #define VNDF_BATCH_LOAD(v) const VNDF_REAL v = in_##v[i];
 #define VNDF_BATCH_STORE(v, member) out_##v[i] = result member;
 
+// Macros that stand for statements:
+// clang-format off
 #define VNDF_BATCH_BODY(function, arguments, result_)                                                        \
     VNDF_SCALARS_##arguments(VNDF_BATCH_LOAD)                                                                \
     const VNDF_TYPE_##result_ result = function(VNDF_CALL_##arguments);                                      \
@@ -31,5 +33,7 @@
             VNDF_BATCH_BODY(function, arguments, result_)                                                    \
         }                                                                                                    \
     }
+
+// clang-format on
 
 #endif

@@ -89,12 +89,24 @@
 #ifndef VNDF_REAL3
 #ifndef VNDF_VECTOR_TYPES
 #define VNDF_VECTOR_TYPES
-struct vndf_float2 { float x, y; };
-struct vndf_float3 { float x, y, z; };
-struct vndf_float4 { float x, y, z, w; };
-struct vndf_double2 { double x, y; };
-struct vndf_double3 { double x, y, z; };
-struct vndf_double4 { double x, y, z, w; };
+struct vndf_float2 {
+    float x, y;
+};
+struct vndf_float3 {
+    float x, y, z;
+};
+struct vndf_float4 {
+    float x, y, z, w;
+};
+struct vndf_double2 {
+    double x, y;
+};
+struct vndf_double3 {
+    double x, y, z;
+};
+struct vndf_double4 {
+    double x, y, z, w;
+};
 #endif
 #define VNDF_REAL2 VNDF_CAT(VNDF_CAT(vndf_, VNDF_REAL), 2)
 #define VNDF_REAL3 VNDF_CAT(VNDF_CAT(vndf_, VNDF_REAL), 3)
@@ -130,11 +142,11 @@ static inline VNDF_REAL vndf_impl_as_real(VNDF_INT i) {
 // The clamps of the public domain (see vndf.h).
 #define VNDF_ALPHA_MIN VNDF_R(1e-8)
 #if VNDF_DOUBLE
-#define VNDF_U_MIN 2.7105054312137610850e-20      // 2^-65
-#define VNDF_U_MAX 0.99999999999999988898         // 1 - 2^-53
+#define VNDF_U_MIN 2.7105054312137610850e-20  // 2^-65
+#define VNDF_U_MAX 0.99999999999999988898     // 1 - 2^-53
 #else
-#define VNDF_U_MIN 1.1641532182693481445e-10f     // 2^-33
-#define VNDF_U_MAX 0.999999940395355224609375f    // 1 - 2^-24
+#define VNDF_U_MIN 1.1641532182693481445e-10f   // 2^-33
+#define VNDF_U_MAX 0.999999940395355224609375f  // 1 - 2^-24
 #endif
 
 #define VNDF_PI VNDF_R(3.14159265358979323846)
