@@ -43,17 +43,20 @@ struct MapErrors {
 
 using Columns = std::vector<std::vector<double>>;
 
-// `settled`: rounding of the inputs leaves the direction determined, so that it can be held to a side of wo.
+// `condition`: of the map at this row, infinite where it has no direction. Where rounding of the inputs leaves the
+// direction undetermined, it is held to no side of wo. About a world-space n no component is that side: the height
+// has the error of the map.
 void add_invariants(const Function& sampler, const RowReader& reader, const double* row, const double* result,
-                    bool defined, bool settled, double unit, std::size_t i, MapErrors& errors) {
+                    double condition, double unit, std::size_t i, MapErrors& errors) {
     const Direction d{result[0], result[1], result[2]};
     const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
     errors.bad.add(finite ? 0 : 1, i);
     if (!finite) return;
     errors.length.add(std::abs(length(d) - 1) / unit, i);
-    if (!defined || sampler.result != "WM") return;
-    errors.below.add(std::max(0.0, -dot(d, reader.n(row))) / unit, i);
-    if (reader.has_wo() && settled)
+    if (!std::isfinite(condition) || sampler.result != "WM") return;
+    const double depth = std::max(0.0, -dot(d, reader.n(row))) / unit;
+    errors.below.add(reader.has_n() ? depth / (1 + condition) : depth, i);
+    if (reader.has_wo() && condition * unit < 0.01)
         errors.behind.add(std::max(0.0, -dot(d, reader.wo(row)) / length(reader.wo(row))) / unit, i);
 }
 
@@ -73,8 +76,7 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
             MapErrors& errors = parts[thread];
             const double condition =
                 defined ? conditioning(row.data(), precision(real)) : std::numeric_limits<double>::infinity();
-            add_invariants(sampler, reader, row.data(), result, defined, condition * unit < 0.01, unit, i,
-                           errors);
+            add_invariants(sampler, reader, row.data(), result, condition, unit, i, errors);
             if (!std::isfinite(condition)) continue;  // no direction, or a true singularity of the map
             const std::vector<R> in(row.begin(), row.end());
             R exact[4];
@@ -137,8 +139,9 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
     add("pointwise, core, maximum", errors.core.max(), maximum * front, unit, errors.core);
     add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
     add("unit length", errors.length.max(), (wi ? 8 : 4) * loose, "eps", errors.length);
-    if (errors.below.count())  // about a world-space n the product itself is rounded
-        add("normal above the surface", errors.below.max(), world ? 4 * loose : 0, "eps", errors.below);
+    if (errors.below.count())
+        add("normal above the surface", errors.below.max(), world ? 4 * loose : 0, world ? unit : "eps",
+            errors.below);
     if (errors.behind.count()) add("normal faces wo", errors.behind.max(), 4 * loose, "eps", errors.behind);
     return findings;
 }

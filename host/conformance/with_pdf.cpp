@@ -105,7 +105,7 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     const double map_condition = reference::condition(s.sampler.name, row.data(), precision(s.real));
     if (!(movement * unit < 0.01) || !(map_condition * unit < 0.01)) return;
     errors.agreement.add(
-        std::abs(s.separate[0][i] - pdf) / pdf / unit / ((1 + movement) * (1 + map_condition)), i);
+        std::abs((s.separate[0][i] - pdf) / pdf) / unit / ((1 + movement) * (1 + map_condition)), i);
 }
 
 template <class R>
