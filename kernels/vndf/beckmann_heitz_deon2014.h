@@ -24,7 +24,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     // Above u1 = 1/2, 1 - mass / edge keeps the digits of 1 - u1.
     int shallow = u1 > VNDF_R(0.5);
     VNDF_REAL r = (VNDF_FMA(VNDF_R(1.0) - u1, i.sigma, plateau) - i.c) / edge;
-    int far = shallow ? r >= VNDF_R(0.0) : mass <= edge, outer = far || mass <= edge + plateau;
+    int at_edge = shallow ? r >= VNDF_R(0.0) : mass <= edge, outer = at_edge || mass <= edge + plateau;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
     VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.sigma / (i.c * within);
@@ -39,10 +39,10 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
                         : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
     VNDF_REAL rest = shallow ? VNDF_R(1.0) - r : mass / edge;
-    VNDF_REAL w = -vndf_impl_log(far ? rest : q * (VNDF_R(1.0) + p));
+    VNDF_REAL w = -vndf_impl_log(at_edge ? rest : q * (VNDF_R(1.0) + p));
     VNDF_REAL size = p * vndf_impl_erfinv_ratio_of_log(w);
     w -= shallow ? ((VNDF_R(1.0) - rest) - r) / rest : VNDF_R(0.0);
-    size = far ? VNDF_SQRT(VNDF_FMA(i.a, i.a, vndf_impl_max(w, VNDF_R(0.0)))) : size;
+    size = at_edge ? VNDF_SQRT(VNDF_FMA(i.a, i.a, vndf_impl_max(w, VNDF_R(0.0)))) : size;
     VNDF_REAL x = outer || left ? -size : size;
 
     // The sign of x by its share of the projected area.
@@ -61,7 +61,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
                                                                   VNDF_REAL2 u) {
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
     struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(f.slopes, vndf_impl_u(u.x), vndf_impl_u(u.y));
-    // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp: rounding may bring a used number to 0.
+    // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp:
+    // rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
     VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
     return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y));

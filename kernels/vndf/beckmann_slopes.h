@@ -68,27 +68,24 @@ VNDF_FN VNDF_REAL vndf_impl_slope_gaussian(struct vndf_impl_incidence_slopes i, 
 VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact) {
     VNDF_REAL w = VNDF_R(-2.0) * y * y, before = VNDF_R(1.0), g = two_ay, next;
     VNDF_REAL sum = VNDF_FMA(VNDF_R(0.66666666666666666667), g, VNDF_R(1.0));
+    // clang-format off
 #define VNDF_IMPL_TERM(n)                                               \
     next = VNDF_FMA(two_ay, g, w * before) * (VNDF_R(1.0) / VNDF_R(n)); \
     before = g;                                                         \
     g = next;                                                           \
     sum = VNDF_FMA(VNDF_R(2.0) / (VNDF_R(n) + VNDF_R(2.0)), g, sum);
-    VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0) VNDF_REAL rough = sum;
-    VNDF_IMPL_TERM(6.0)
-    VNDF_IMPL_TERM(7.0)
-    VNDF_IMPL_TERM(8.0)
-    VNDF_IMPL_TERM(9.0)
-    VNDF_IMPL_TERM(10.0)
-    VNDF_IMPL_TERM(11.0)
-    VNDF_IMPL_TERM(12.0)
-        VNDF_IMPL_TERM(13.0)
+    VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0)
+    VNDF_REAL rough = sum;
+    VNDF_IMPL_TERM(6.0) VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0)
+    VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
 #if VNDF_DOUBLE
-            VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
-                VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
-                    VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
+    VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
+    VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
+    VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
 #endif
 #undef VNDF_IMPL_TERM
-                        return exact
+        // clang-format on
+        return exact
         ? sum
         : rough;
 }
@@ -113,9 +110,9 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
     // Next to the edge 1 - C is a difference of nearly equal terms.
     VNDF_REAL two_ay = VNDF_R(-2.0) * base * offset;
-    VNDF_REAL near = offset / i.reach2 * offset * vndf_impl_edge_series(two_ay, offset, exact);
+    VNDF_REAL close = offset / i.reach2 * offset * vndf_impl_edge_series(two_ay, offset, exact);
     int series = upper && edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
-    r.mass = series ? near : mass;
+    r.mass = series ? close : mass;
     r.density = VNDF_1_SQRT_PI * projection * e;
     r.bend = i.s / projection - VNDF_R(2.0) * t;
     return r;
@@ -172,8 +169,8 @@ VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, int
                                    : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
 
     // a^2 reach2 rises from 0 at a = 0 to 1/2.
-    VNDF_REAL far = i.a * (i.a * i.reach2);
-    VNDF_REAL v = VNDF_FMA(VNDF_R(2.0) * i.a, edge, l * VNDF_FMA(VNDF_R(-0.5), far, VNDF_R(1.0)));
+    VNDF_REAL steep = i.a * (i.a * i.reach2);
+    VNDF_REAL v = VNDF_FMA(VNDF_R(2.0) * i.a, edge, l * VNDF_FMA(VNDF_R(-0.5), steep, VNDF_R(1.0)));
     VNDF_REAL behind = v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
     return i.front ? in_front : behind;
 }
@@ -251,9 +248,9 @@ VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 w
     return f;
 }
 
-// The normal of the slopes (t, y) towards and across e, before the stretch, and its density |g|^3 / (alpha_x alpha_y)
-// times `weight` e^(-exponent), g = (alpha_x h_x, alpha_y h_y, 1). All is scaled by a power of two near 1 / t: squares
-// of t may overflow.
+// The normal that leans by t towards and by y across e before the stretch, and its density, `weight` in slopes: times
+// |g|^3 / (alpha_x alpha_y) for g = (alpha_x h_x, alpha_y h_y, 1). All is scaled by a power of two near 1 / t: squares of t
+// may overflow.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL t,
                                                              VNDF_REAL y, VNDF_REAL alpha_x,
                                                              VNDF_REAL alpha_y, VNDF_REAL weight) {
@@ -271,7 +268,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     return m;
 }
 
-// The normal of a slope in and of the slope y across the plane of incidence, with its visible density.
+// The normal of a slope in the plane of incidence and of one of y across it, with its visible density.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f, int edge,
                                                           VNDF_REAL offset, VNDF_REAL y) {
     struct vndf_impl_incidence_slopes i = f.slopes;
