@@ -1,7 +1,6 @@
 // clvndf check
-#include <unistd.h>
-
-#include <cstdio>
+#include <atomic>
+#include <csignal>
 #include <memory>
 #include <optional>
 
@@ -9,7 +8,9 @@
 
 #include "cli/commands.h"
 #include "cli/output_file.h"
+#include "cli/progress.h"
 #include "conformance/check.h"
+#include "conformance/exhaustive.h"
 #include "error.h"
 
 namespace vndf::cli {
@@ -19,30 +20,61 @@ struct Check {
     Target target;
     std::string only, json, junit;
     bool quick = false;
+    bool exhaustive = false;
+    double minutes = 0;  // 0: to the end
+    std::string slice = "1/1";
 };
 
-// A line on the terminal that is written over, and gone at the end.
-class Progress {
-  public:
-    explicit Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
-    ~Progress() { clear(); }
-    void operator()(const std::string& what, double done) const {
-        if (shown_) fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 100 * done, what), std::fflush(stderr);
-    }
-    void clear() const {
-        if (shown_) fmt::print(stderr, "\r\033[K"), std::fflush(stderr);
-    }
+std::vector<const Function*> selected_by(const Check& options) {
+    auto selected = conformance::select(options.only);
+    if (!selected.empty()) return selected;
+    throw InputError(
+        fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
+                    options.only, fmt::join(nearest_names(options.only), ", ")));
+}
 
-  private:
-    bool shown_;
-};
+std::atomic<bool> interrupted{false};
+
+// "3/10": the third of ten equal parts.
+conformance::Slice parse_slice(const std::string& text) {
+    unsigned number = 0, count = 0;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%9u/%9u%n", &number, &count, &end) == 2 &&
+        static_cast<std::size_t>(end) == text.size() && number >= 1 && number <= count)
+        return {number - 1, count};
+    throw InputError(fmt::format("--slice '{}': expected a part I/N with 1 <= I <= N, as in 3/10", text));
+}
+
+// Ends at the first of: all walked, the time given, an interrupt; and reports in each case.
+void run_exhaustive(const Check& options, Common& common) {
+    const auto samplers = conformance::samplers_of(selected_by(options));
+    if (samplers.empty()) throw InputError(fmt::format("--only '{}': no sampler", options.only));
+    if (options.target.real() != runtime::Real::f32)
+        throw InputError("--exhaustive --real double: only the values of a float can be exhausted");
+    conformance::ExhaustiveOptions walk;
+    walk.slice = parse_slice(options.slice);
+    if (options.minutes > 0) walk.seconds = 60 * options.minutes;
+
+    const runtime::Device device = options.target.choose(common);
+    const Progress progress(common.quiet);
+    progress("building the program", 0);
+    runtime::DeviceEvaluator evaluator(device, options.target.math(), runtime::Real::f32,
+                                       conformance::exhaustive_program(samplers));
+    walk.proceed = [&](const std::string& what, double done) {
+        progress(what, done);
+        return !interrupted;
+    };
+    const auto before = std::signal(SIGINT, [](int) { interrupted = true; });
+    const auto report = conformance::exhaust(evaluator, options.target.math(), samplers, walk);
+    std::signal(SIGINT, before);
+    progress.clear();
+    fmt::print("{}", conformance::format_table(report));
+    common.exit_status = !report.passed() ? 1 : interrupted ? 128 + SIGINT : 0;
+}
 
 void run_check(const Check& options, Common& common) {
-    const auto selected = conformance::select(options.only);
-    if (selected.empty())
-        throw InputError(
-            fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
-                        options.only, fmt::join(nearest_names(options.only), ", ")));
+    if (options.exhaustive) return run_exhaustive(options, common);
+    const auto selected = selected_by(options);
     if (options.json == "-" && options.junit == "-")
         throw InputError("--json - and --junit -: only one of them can have the standard output");
     // Opened before the work, so that a path that cannot be written costs no time.
@@ -78,9 +110,25 @@ void add_check(CLI::App& app, Common& common) {
     options->target.add_to(*command);
     command->add_option("--only", options->only,
                         "only functions whose name contains this, or matches it with * and ?");
-    command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
-    command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
-    command->add_option("--junit", options->junit, "write the findings as JUnit XML (- for standard output)");
+    CLI::Option* quick =
+        command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
+    CLI::Option* json =
+        command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
+    CLI::Option* junit = command->add_option("--junit", options->junit,
+                                             "write the findings as JUnit XML (- for standard output)");
+    CLI::Option* exhaustive =
+        command
+            ->add_flag("--exhaustive", options->exhaustive,
+                       "instead: every u that is a multiple of 2^-24, at hard lobes, judged on the device; "
+                       "hours\n(an interrupt ends it with a report)")
+            ->excludes(quick)
+            ->excludes(json)
+            ->excludes(junit);
+    command->add_option("--minutes", options->minutes, "end the exhaustion after this time")
+        ->needs(exhaustive)
+        ->check(CLI::PositiveNumber);
+    command->add_option("--slice", options->slice, "this part of the exhaustion only: I/N, the I-th of N")
+        ->needs(exhaustive);
     command->callback(
         [options, &common] { common.action = [options, &common] { run_check(*options, common); }; });
 }

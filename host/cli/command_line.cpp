@@ -85,6 +85,7 @@ CommandLine::CommandLine()
     add_list(app_, common_);
     add_eval(app_, common_);
     add_check(app_, common_);
+    add_policies(app_, common_);
 #ifdef CLVNDF_BENCH
     add_bench(app_, common_);
 #endif

@@ -35,6 +35,7 @@ void add_devices(CLI::App& app, Common& common);
 void add_list(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_check(CLI::App& app, Common& common);
+void add_policies(CLI::App& app, Common& common);
 void add_bench(CLI::App& app, Common& common);  // defined where Google Benchmark is there
 
 }  // namespace vndf::cli

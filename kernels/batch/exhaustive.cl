@@ -1,0 +1,111 @@
+// Exhaustion: a sampler's results for every u, judged where they are computed. vndf_exhaustive_<name> for each
+// registered sampler counts the results that break what every result promises; nothing else leaves the device.
+//
+// Arguments: the lobe, one number for each of the sampler's scalars in the registry's order, u1 and u2 as the
+// origins of the walk u_j = origin_j + 2^-24 ((step_j k + start_j) mod 2^24), whose indices k an item takes `strip`
+// at once; `defined`, 0 where the sampler has no distribution at this lobe, and `documented`, 1 where it then returns
+// the normal; `watch`, a bit for each invariant whose offenders compete for the first; tally: for each invariant the
+// number of offenders, then the first offender's index. The host sets it to 0 and ~0. Invariants, in order:
+//
+//   finite   all four numbers, by their bits: fast math would fold a comparison
+//   unit     the length of the direction within 4 eps, of a reflection 8 eps, eps = 2^-24
+//   upper    wm.z >= 0; about a normal n, wm . n >= -4 eps; for a reflection the half vector's height
+//   faces    wm . wo >= -4 eps; a reflection lies in its cap; the normal where that is documented
+//   density  positive, and 0 where there is no distribution
+//
+// The strip is a loop inside an item: it has no memory access, so that CPU devices turn it into vector code.
+#include "../vndf/vndf.h"
+#include "shapes.h"
+
+VNDF_FN int vndf_exhaustive_finite(VNDF_REAL x) {
+    return (VNDF_AS_INT(x) & 0x7f800000) != 0x7f800000;
+}
+
+VNDF_FN VNDF_REAL vndf_exhaustive_walk(VNDF_REAL origin, uint step, uint start, uint k) {
+    return VNDF_FMA((VNDF_REAL)(int)((step * k + start) & 0xffffff), VNDF_EPSILON, origin);
+}
+
+// | |d|^2 - 1 | <= 2 slack: exact to eps.
+VNDF_FN int vndf_exhaustive_unit(VNDF_REAL4 d, VNDF_REAL slack) {
+    VNDF_REAL excess = VNDF_FMA(d.z, d.z, VNDF_FMA(d.y, d.y, VNDF_FMA(d.x, d.x, VNDF_R(-1.0))));
+    return vndf_impl_abs(excess) <= VNDF_R(2.0) * slack;
+}
+
+// Whether wi lies in the cap of Eto & Tokuyoshi 2023, wherever rounding of 4 eps may have moved it: the stretched
+// reflection's height h2 h.z / (q r) - wo.z / r is at least -k wo.z / r, where h = wo + wi, q = |h stretched|^2.
+VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 wi) {
+    const VNDF_REAL move = VNDF_R(4.0) * VNDF_EPSILON;
+    VNDF_REAL rx = VNDF_R(1.0) / vndf_impl_alpha(alpha.x), ry = VNDF_R(1.0) / vndf_impl_alpha(alpha.y);
+    VNDF_REAL a = vndf_impl_min(vndf_impl_max(vndf_impl_min(alpha.x, alpha.y), VNDF_ALPHA_MIN), VNDF_R(1.0));
+    VNDF_REAL z = vndf_impl_max(wo.z, VNDF_R(0.0)), s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
+    VNDF_REAL rest = a * a * (s * s + z * z) / (s * s + a * a * z * z);  // 1 - k
+    VNDF_REAL hx = wo.x + wi.x, hy = wo.y + wi.y, hz = wo.z + wi.z, h2 = hx * hx + hy * hy + hz * hz;
+    VNDF_REAL sx = hx * rx, sy = hy * ry, q = sx * sx + sy * sy + hz * hz;
+    VNDF_REAL sum = vndf_impl_abs(hx) + vndf_impl_abs(hy) + vndf_impl_abs(hz) + move;
+    VNDF_REAL turn = VNDF_R(2.0) * (vndf_impl_abs(sx) * rx + vndf_impl_abs(sy) * ry + vndf_impl_abs(hz)) +
+                     move * (rx * rx + ry * ry + VNDF_R(1.0));
+    VNDF_REAL slack = move * (h2 + VNDF_R(2.0) * sum * (vndf_impl_abs(hz) + move) + rest * z * turn);
+    return h2 * hz - rest * z * q >= -slack;
+}
+
+// The invariants `upper` and `faces` by the kind of result and of arguments. A plain distribution of normals has no wo.
+#define VNDF_EXHAUSTIVE_DOT(d, v) vndf_impl_dot(d.x, d.y, d.z, v##_x, v##_y, v##_z)
+#define VNDF_EXHAUSTIVE_SLACK (VNDF_R(-4.0) * VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_UNIT_WM(d) vndf_exhaustive_unit(d, VNDF_R(4.0) * VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_UNIT_WI(d) vndf_exhaustive_unit(d, VNDF_R(8.0) * VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_UPPER_WM_WO_ALPHA_U(d) (d.z >= VNDF_R(0.0))
+#define VNDF_EXHAUSTIVE_UPPER_WM_ALPHA_U(d) (d.z >= VNDF_R(0.0))
+#define VNDF_EXHAUSTIVE_UPPER_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, n) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WM_ALPHA_U(d) 1
+#define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d) \
+    vndf_exhaustive_in_cap(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
+
+#define VNDF_EXHAUSTIVE_ARGUMENT(v) const VNDF_REAL lobe_##v,
+#define VNDF_EXHAUSTIVE_BIND(v) VNDF_REAL v = lobe_##v;
+
+#define VNDF_EXHAUSTIVE(name, function, arguments, result)                                                   \
+    __kernel void name(VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_ARGUMENT) const uint step1,                  \
+                       const uint start1, const uint step2, const uint start2, \
+                       const uint strip, const uint defined, const uint documented, const uint watch,        \
+                       __global uint *tally) {                                                               \
+        VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_BIND);                                                      \
+        const uint from = (uint)get_global_id(0) * strip;                                            \
+        uint not_finite = 0, not_unit = 0, not_upper = 0, not_facing = 0, not_density = 0, first = ~0u;      \
+        for (uint k = from; k != from + strip; ++k) {                                                        \
+            u1 = vndf_exhaustive_walk(lobe_u1, step1, start1, k);                                            \
+            u2 = vndf_exhaustive_walk(lobe_u2, step2, start2, k);                                            \
+            const VNDF_REAL4 d = function(VNDF_CALL_##arguments);                                            \
+            const int finite = vndf_exhaustive_finite(d.x) & vndf_exhaustive_finite(d.y) &                   \
+                               vndf_exhaustive_finite(d.z) & vndf_exhaustive_finite(d.w);                    \
+            const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d);                                               \
+            const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d);                               \
+            const int normal = (d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(1.0));           \
+            const int faces = defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d)                      \
+                                      : normal | !documented;                                                \
+            const int density = defined ? d.w > VNDF_R(0.0) : d.w == VNDF_R(0.0);                            \
+            not_finite += !finite;                                                                           \
+            not_unit += !unit;                                                                               \
+            not_upper += !upper;                                                                             \
+            not_facing += !faces;                                                                            \
+            not_density += !density;                                                                         \
+            const uint broken = (finite ? 0 : 1) | (unit ? 0 : 2) | (upper ? 0 : 4) | (faces ? 0 : 8) |      \
+                                (density ? 0 : 16);                                                          \
+            const uint offender = broken & watch ? k : ~0u;                                                  \
+            first = offender < first ? offender : first;                                                     \
+        }                                                                                                    \
+        if (not_finite + not_unit + not_upper + not_facing + not_density) {                                  \
+            atomic_add(&tally[0], not_finite);                                                               \
+            atomic_add(&tally[1], not_unit);                                                                 \
+            atomic_add(&tally[2], not_upper);                                                                \
+            atomic_add(&tally[3], not_facing);                                                               \
+            atomic_add(&tally[4], not_density);                                                              \
+            atomic_min(&tally[5], first);                                                                    \
+        }                                                                                                    \
+    }
+
+#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, p99_front, p99_back, source)     \
+    VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result)
+#include "../samplers.def"
