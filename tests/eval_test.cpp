@@ -185,7 +185,7 @@ TEST_CASE("bad input is one line that says what was found, where, and what is al
 
 TEST_CASE("whatever is no number is refused") {
     for (const std::string cell :
-         {"",   "abc", "1.5.2", "1,5e",  "--1",   "+-1",   "0x",   "0xg", "0x-1",  "0xinf", "0x1p",
+         {"",   "abc", "1.5.2", "1,5e",  "--1",   "+-1",   "0x",   "0xg", "0x-1",  "0xinf", "0x1p", "0x1p+-1",
           "1e", "1 2", "1f",    "1.0_0", "\"1\"", "infin", "nanx", "0b1", "1'000", "½",     "'0;'"}) {
         if (cell.find(',') != cell.npos) continue;
         const Outcome run = clvndf("eval vndf_reflect --on host", reflect_header + cell + ",0,1,0,0,1\n");

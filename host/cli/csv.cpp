@@ -186,8 +186,8 @@ R parse_number(std::string_view cell) {
     if (negative || digits.starts_with('+')) digits.remove_prefix(1);
     const bool hex = digits.starts_with("0x") || digits.starts_with("0X");
     if (hex) digits.remove_prefix(2);
-    // from_chars would take a second sign, and inf or nan after 0x.
-    if (digits.empty() || digits[0] == '-' ||
+    // from_chars would take a second sign, also that of a hex exponent, and inf or nan after 0x.
+    if (digits.empty() || digits[0] == '-' || digits.find("+-") != digits.npos ||
         (hex && digits[0] != '.' && !std::isxdigit(static_cast<unsigned char>(digits[0])))) {
         fail(no_number);
     }

@@ -5,10 +5,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <cfenv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,19 +21,34 @@
 
 namespace vndf::test {
 
-// The number that the C library reads in the whole of `cell`, correctly rounded; nothing where it reads less,
-// or where a finite text overflows.
+// `text`, which strtold reads as a whole, rounded correctly to R. Both neighbours in long double tell: strtof and
+// strtod themselves lose a bit of some subnormal hex numbers (glibc 2.36 reads 0x1.51D2a9p-129 as 0x1.51d2ap-129).
+template <class R>
+R rounded(const char* text) {
+    std::fesetround(FE_DOWNWARD);
+    const long double below = std::strtold(text, nullptr);
+    std::fesetround(FE_UPWARD);
+    const long double above = std::strtold(text, nullptr);
+    std::fesetround(FE_TONEAREST);
+    const R low = static_cast<R>(below), high = static_cast<R>(above);
+    if (std::isnan(below) || low == high) return low;
+    // The midpoint of the two is a long double: it is one of the neighbours, and the number lies strictly between.
+    const long double infinity = std::ldexp(1.0L, std::numeric_limits<R>::max_exponent);
+    const auto value = [&](R x) {
+        return std::isinf(x) ? std::copysign(infinity, static_cast<long double>(x)) : x;
+    };
+    return below == value(low) / 2 + value(high) / 2 ? high : low;
+}
+
+// The number in the whole of `cell`, correctly rounded; nothing where it is none or a finite text overflows.
 template <class R>
 std::optional<R> expected_number(std::string_view cell) {
     const std::string text(cell);
     if (text.empty() || std::isspace(static_cast<unsigned char>(text[0]))) return {};
     char* end = nullptr;
-    R number;
-    if constexpr (sizeof(R) == sizeof(float))
-        number = std::strtof(text.c_str(), &end);
-    else
-        number = std::strtod(text.c_str(), &end);
+    std::strtold(text.c_str(), &end);
     if (end != text.c_str() + text.size()) return {};
+    const R number = rounded<R>(text.c_str());
     const bool said_infinite = text.find_first_of("iI") != text.npos;
     if (std::isinf(number) && !said_infinite) return {};
     return number;
