@@ -12,9 +12,7 @@ bool is_lobe(const std::string& scalar) {
     return scalar == "eta" || scalar == "cos_theta";
 }
 
-// A group passes over its chunk with a barrier in between, which keeps the loop over passes outside the loop that a
-// CPU device makes of the group's items: the inner loop is the one it vectorises.
-std::string compute_source(const Function& function, const std::string& callee, const ComputeShape& shape) {
+std::string compute_source(const Function& function, const std::string& callee) {
     const std::string result = function.result + (function.with_pdf ? "_PDF" : "");
     std::string parameters, loads;
     for (const std::string& scalar : function.inputs) {
@@ -22,22 +20,20 @@ std::string compute_source(const Function& function, const std::string& callee, 
             parameters += fmt::format("const VNDF_REAL {}, ", scalar);
         } else {
             parameters += fmt::format("__global const VNDF_REAL *restrict in_{}, ", scalar);
-            loads += fmt::format("        const VNDF_REAL {0} = in_{0}[i];\n", scalar);
+            loads += fmt::format("    const VNDF_REAL {0} = in_{0}[i];\n", scalar);
         }
     }
     for (const std::string& scalar : function.outputs)
         parameters += fmt::format("__global VNDF_REAL *restrict out_{}, ", scalar);
+    parameters.resize(parameters.size() - 2);
     return fmt::format(
         "\n#line 1 \"compute\"\n"
-        "__kernel void vndf_compute({}const uint passes) {{\n"
-        "    for (uint pass = 0; pass < passes; ++pass) {{\n"
-        "        const size_t i = (get_group_id(0) * {} + pass % {}) * get_local_size(0) + get_local_id(0);\n"
-        "{}        const VNDF_TYPE_{} result = {}(VNDF_CALL_{});\n"
-        "        VNDF_RESULTS_{}(VNDF_BATCH_STORE)\n"
-        "        barrier(CLK_GLOBAL_MEM_FENCE);\n"
-        "    }}\n"
+        "__kernel void vndf_compute({}) {{\n"
+        "    const size_t i = (get_group_id(0) % {}) * get_local_size(0) + get_local_id(0);\n"
+        "{}    const VNDF_TYPE_{} result = {}(VNDF_CALL_{});\n"
+        "    VNDF_RESULTS_{}(VNDF_BATCH_STORE)\n"
         "}}\n",
-        parameters, shape.chunk, shape.chunk, loads, result, callee, function.arguments, result);
+        parameters, compute_groups, loads, result, callee, function.arguments, result);
 }
 
 std::string to_string(Copy copy) {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "conformance/errors.h"
+#include "conformance/samplers.h"
 #include "cpp_build.h"
 #include "error.h"
 #include "inputs.h"
@@ -23,8 +23,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t local_size = 64;
 constexpr std::size_t column_bytes = std::size_t{1} << 24;  // far beyond every cache, with 10 columns
 constexpr std::size_t distinct_rows = std::size_t{1} << 16;
-constexpr double slow_launch_s = 0.06;      // longer launches are cut to a quarter of the samples
-constexpr double compute_launch_s = 0.004;  // long beside the cost of a launch
+constexpr std::ptrdiff_t judged_rows = 1 << 14;  // the reference takes microseconds for each
+constexpr double slow_launch_s = 0.06;           // longer launches are cut to a quarter of the samples
+constexpr double compute_launch_s = 0.004;       // long beside the cost of a launch
+constexpr std::size_t most_items = std::size_t{1} << 28;
+constexpr std::size_t cpp_rows = 512;  // of the C++ build when compute-bound: they fit the first cache
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -68,12 +71,7 @@ bool is_published(const Function& function) {
 }
 
 Session::Session(const runtime::Device& device)
-    : device_(device),
-      context_(device.handle),
-      queue_(context_, device.handle, CL_QUEUE_PROFILING_ENABLE),
-      shape_{32 * std::max(1u, device.compute_units), local_size,
-             // What a group holds fits a CPU's first cache; a GPU's second has to hold all groups at once.
-             (device.type & CL_DEVICE_TYPE_CPU) != 0 ? std::size_t{8} : std::size_t{1}} {}
+    : device_(device), context_(device.handle), queue_(context_, device.handle, CL_QUEUE_PROFILING_ENABLE) {}
 
 const conformance::Table& Session::table(const Function& function, Real real) {
     auto [found, missing] = tables_.try_emplace(function.name + std::string(to_string(real)));
@@ -168,15 +166,12 @@ Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluato
     }
     for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
 
-    const std::size_t work_items = shape_.groups * shape_.local;
-    std::size_t passes = shape_.chunk;
-    kernel.setArg(argument, static_cast<cl_uint>(passes));
-    launch(kernel, work_items);
-    while (launch(kernel, work_items).wall_s < compute_launch_s && passes < (std::size_t{1} << 24))
-        kernel.setArg(argument, static_cast<cl_uint>(passes *= 2));
+    std::size_t items = compute_groups * local_size;
+    launch(kernel, items);
+    while (launch(kernel, items).wall_s < compute_launch_s && items < most_items) items *= 2;
     Entry entry;
-    entry.samples = static_cast<double>(work_items * passes);
-    entry.launch = [this, kernel, work_items] { return launch(kernel, work_items); };
+    entry.samples = static_cast<double>(items);
+    entry.launch = [this, kernel, items] { return launch(kernel, items); };
     return entry;
 }
 
@@ -223,20 +218,30 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
     return name;
 }
 
-// The part of a sampler's directions that are reflections above the surface.
+// Errors on the very inputs that are timed, and the part of a sampler's directions that are reflections above the
+// surface.
 void Session::add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator) {
-    if (function.kind != Kind::sampler) return;
     const conformance::Table& inputs = table(function, evaluator.input_real());
+    conformance::Table judged;
+    for (const std::vector<double>& column : inputs.columns)
+        judged.columns.emplace_back(column.begin(), column.begin() + judged_rows);
+    const conformance::Errors errors = conformance::pointwise_errors(evaluator, function, judged);
+    entry.figures["err_p50"] = errors.percentile(50);
+    entry.figures["err_p99"] = errors.percentile(99);
+    entry.figures["err_max"] = errors.max();
+    if (function.kind != Kind::sampler) return;
+
     const auto results = conformance::evaluate(evaluator, function, inputs);
     const std::vector<conformance::Point> all = points(distinct_rows, in_world_space(function));
+    const auto dot = [](const conformance::Direction& a, const conformance::Direction& b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
     std::size_t useful = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const conformance::Direction &wo = all[i].wo, &n = all[i].n;
         const conformance::Direction d{results[0][i], results[1][i], results[2][i]};
-        const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-        const double cosine = dot(wo, d),
-                     height = function.result == "WI" ? dot(d, n) : 2 * cosine * dot(d, n) - dot(wo, n);
-        useful += height > 0 && (function.result == "WI" || cosine > 0);
+        const double cosine = dot(all[i].wo, d), height = dot(d, all[i].n);
+        useful += function.result == "WI" ? height > 0
+                                          : cosine > 0 && 2 * cosine * height > dot(all[i].wo, all[i].n);
     }
     entry.useful = static_cast<double>(useful) / static_cast<double>(all.size());
 }
@@ -248,7 +253,7 @@ void Session::add_program(const Function& function, Math math, Real real, const 
         runtime::ProgramOptions options;
         options.functions = {function.name};
         options.root = root;
-        options.more_source = compute_source(function, callee, shape_);
+        options.more_source = compute_source(function, callee);
         options.context = context_;
         for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
         const double cold_s = build(function, math, real, options);
@@ -290,7 +295,7 @@ void Session::add_cpp(const Function& function) {
     const conformance::Point point = lobe(in_world_space(function));
     for (const bool compute : {false, true}) {
         // Compute-bound: one lobe and few rows, gone over again and again.
-        const std::size_t rows = compute ? shape_.local * shape_.chunk : column_bytes / sizeof(float) / 4;
+        const std::size_t rows = compute ? cpp_rows : column_bytes / sizeof(float) / 4;
         const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
         const std::size_t passes = compute ? 2048 : 1;
         using Array = std::vector<float>;

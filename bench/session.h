@@ -63,7 +63,6 @@ class Session {
     runtime::Device device_;
     cl::Context context_;
     cl::CommandQueue queue_;
-    ComputeShape shape_;
     std::map<std::string, cl::Buffer> inputs_;
     std::map<std::string, conformance::Table> tables_;
     std::vector<cl::Buffer> outputs_;

@@ -1,6 +1,7 @@
 // clvndf bench
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "cli/output_file.h"
 #include "conformance/check.h"
 #include "error.h"
+#include "runtime/sources.h"
 
 namespace vndf::cli {
 namespace {
@@ -60,20 +62,44 @@ std::string read_file(const std::string& path) {
     return text;
 }
 
+// FOLDER/index.html out of FOLDER/bench.json, by the script in this binary.
+void make_report(const std::string& folder) {
+    const auto& files = runtime::embedded_sources();
+    const auto script = std::find_if(
+        files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report.py"; });
+    const std::filesystem::path work(folder);
+    const auto path = [&](const char* name) { return (work / name).string(); };
+    // The paths go by the environment, so that no name has to be quoted.
+    setenv("CLVNDF_REPORT", path("index.html").c_str(), 1);
+    setenv("CLVNDF_BENCH", path("bench.json").c_str(), 1);
+    std::FILE* python = popen("python3 - \"$CLVNDF_REPORT\" \"$CLVNDF_BENCH\"", "w");
+    if (python) std::fwrite(script->text.data(), 1, script->text.size(), python);
+    if (!python || pclose(python) != 0)
+        throw DeviceError(
+            fmt::format("--report {}: python3 with matplotlib (python3-matplotlib) could not draw it; the "
+                        "measurements are in {}",
+                        folder, path("bench.json")));
+}
+
 // A line on the terminal that is written over, and gone at the end.
 void show(bool shown, const std::string& text) {
     if (shown) fmt::print(stderr, "\r\033[K{}", text), std::fflush(stderr);
 }
 
-void add_entries(bench::Session& session, const runtime::Device& device, const Function& function) {
+// `forms`: part of POLICY/REAL that an entry must contain. What others are compared with is always there.
+void add_entries(bench::Session& session, const runtime::Device& device, const Function& function,
+                 const std::string& forms) {
+    const auto wanted = [&](const std::string& form) { return form.find(forms) != std::string::npos; };
     for (const Real real : {Real::f32, Real::f64}) {
         if (real == Real::f64 && !device.fp64) continue;
-        for (const Math math : {Math::strict, Math::builtin, Math::native})
-            if (real == Real::f32 || math != Math::native)
-                session.add(function, math, real);  // native means float
+        for (const Math math : {Math::strict, Math::builtin, Math::native}) {
+            if (real == Real::f64 && math == Math::native) continue;  // native means float
+            if (wanted(fmt::format("{}/{}", to_string(math), to_string(real))))
+                session.add(function, math, real);
+        }
     }
     session.add_published(function);
-    session.add_cpp(function);
+    if (wanted("cpp/float")) session.add_cpp(function);
 }
 
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
@@ -129,7 +155,9 @@ void print_table(const std::vector<bench::Result>& results, const std::vector<be
 }
 
 void run_bench(const Bench& options, Common& common) {
-    const auto selected = conformance::select(options.only);
+    const std::size_t slash = std::min(options.only.find('/'), options.only.size());
+    const auto selected = conformance::select(options.only.substr(0, slash));
+    const std::string forms = options.only.substr(std::min(slash + 1, options.only.size()));
     if (selected.empty())
         throw InputError(
             fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
@@ -138,6 +166,13 @@ void run_bench(const Bench& options, Common& common) {
     if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
+    std::optional<OutputFile> report;
+    if (!options.report.empty()) {
+        std::error_code failure;
+        std::filesystem::create_directories(options.report, failure);
+        if (failure) throw InputError(fmt::format("--report {}: {}", options.report, failure.message()));
+        report.emplace(options.report + "/bench.json");
+    }
 
     const FreshCaches caches;
     Target target;
@@ -147,7 +182,7 @@ void run_bench(const Bench& options, Common& common) {
     bench::Session session(device);
     for (std::size_t i = 0; i < selected.size(); ++i) {
         show(shown, fmt::format("building {} of {}: {}", i + 1, selected.size(), selected[i]->name));
-        add_entries(session, device, *selected[i]);
+        add_entries(session, device, *selected[i], forms);
     }
     const bench::Measurement measurement =
         bench::measure(session.entries(), options.repetitions, context(device, session, options),
@@ -155,6 +190,7 @@ void run_bench(const Bench& options, Common& common) {
     show(shown, "");
     if (json) json->write(measurement.json), json->commit();
     if (options.json != "-") print_table(measurement.results, baseline);
+    if (report) report->write(measurement.json), report->commit(), make_report(options.report);
 }
 
 }  // namespace
@@ -166,12 +202,18 @@ void add_bench(CLI::App& app, Common& common) {
         "time of every function in every policy, beside the published listings, C++ and plain copies");
     command->add_option("--device", options->device,
                         "first device whose platform or device name contains this");
-    command->add_option("--only", options->only,
-                        "only functions whose name contains this, or matches it with * and ?");
+    command->add_option(
+        "--only", options->only,
+        "only functions whose name contains this, or matches it with * and ?; after a slash, only "
+        "policies\nand types that contain what follows: dupuy2023/strict/float");
     command->add_option("--repetitions", options->repetitions, "how often each entry is measured")
         ->check(CLI::Range(3, 1000))
         ->capture_default_str();
     command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
+    command
+        ->add_option("--report", options->report,
+                     "make FOLDER/index.html, a page with plots, beside FOLDER/bench.json")
+        ->type_name("FOLDER");
     command->add_option("--compare", options->compare, "show times relative to those of this JSON file");
     command->callback(
         [options, &common] { common.action = [options, &common] { run_bench(*options, common); }; });

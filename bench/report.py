@@ -1,0 +1,315 @@
+#!/usr/bin/env python3
+"""Report of `clvndf bench`: one self-contained HTML page with vector plots.
+
+    python3 bench/report.py OUTPUT.html BENCH.json [BENCH.json ...]
+
+Several files, one for each device, are put side by side. Needs matplotlib.
+"""
+import html
+import io
+import json
+import math
+import sys
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
+                     "svg.hashsalt": "clvndf", "figure.constrained_layout.use": True})
+
+POLICIES = {  # key of an entry's policy and type: name, colour, marker
+    "strict/float": ("strict float", "#1f77b4", "o"),
+    "builtin/float": ("builtin float", "#ff7f0e", "s"),
+    "native/float": ("native float", "#2ca02c", "^"),
+    "strict/double": ("strict double", "#17becf", "D"),
+    "builtin/double": ("builtin double", "#bcbd22", "v"),
+    "published/float": ("published listing", "#d62728", "X"),
+    "cpp/float": ("C++, all threads", "#7f7f7f", "P"),
+}
+DOUBLE_UNIT = 2.0 ** -29  # 2^-53 in units of 2^-24
+
+
+class Bench:
+    """The best repetition of every entry of one JSON file."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            data = json.load(file)
+        self.context = data["context"]
+        self.device = self.context["device"]
+        self.best = {b["run_name"]: b for b in data["benchmarks"] if b.get("aggregate_name") == "best"}
+        self.median = {b["run_name"]: b for b in data["benchmarks"] if b.get("aggregate_name") == "median"}
+        self.spread = {b["run_name"]: b["ns_per_sample"] for b in data["benchmarks"]
+                       if b.get("aggregate_name") == "cv"}
+        self.functions = list(dict.fromkeys(n.split("/")[0] for n in self.best if not n.startswith("copy_")))
+
+    def ns(self, function, policy, mode="stream"):
+        entry = self.best.get(f"{function}/{policy}/{mode}")
+        return entry["ns_per_sample"] if entry else None
+
+    def counter(self, name, counter):
+        return self.best.get(name, {}).get(counter)
+
+    def samplers(self):
+        return [f for f in self.functions if "_sample_" in f and not f.endswith("_with_pdf")]
+
+
+def short(function):
+    return function.removeprefix("vndf_").replace("_sample_wm_", " ").replace("_sample_wi_", " ").replace("_", " ")
+
+
+def svg(figure):
+    text = io.StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None})
+    plt.close(figure)
+    return text.getvalue()[text.getvalue().index("<svg"):]
+
+
+def ratio_axis(axis):
+    if not axis.patches:
+        return
+    axis.set_xscale("log")
+    axis.axvline(1, color="black", linewidth=0.8)
+    axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: f"{x:g}"))
+    axis.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+
+
+def bars(axis, labels, series):
+    """Horizontal groups of bars, the first label on top; series: (name, colour, values), None where there is none."""
+    height = 0.8 / max(1, len(series))
+    for k, (name, colour, values) in enumerate(series):
+        at = [i + (k - (len(series) - 1) / 2) * height for i in range(len(labels))]
+        shown = [(y, v) for y, v in zip(at, values) if v is not None]
+        axis.barh([y for y, _ in shown], [v for _, v in shown], height * 0.92, label=name, color=colour)
+    axis.set_yticks(range(len(labels)), labels)
+    axis.set_ylim(len(labels) - 0.4, -0.6)
+    axis.grid(axis="y", visible=False)
+
+
+def pareto(points):
+    """The points that no other beats in both coordinates, from the left to the right."""
+    front = []
+    for x, y in sorted(points):
+        if not front or y < front[-1][1]:
+            front.append((x, y))
+    return front
+
+
+def accuracy_against_time(benches):
+    figure, axes = plt.subplots(len(benches), 2, figsize=(11, 4.6 * len(benches)), squeeze=False)
+    for row, bench in zip(axes, benches):
+        for axis, ndf in zip(row, ("ggx", "beckmann")):
+            samplers = [s for s in bench.samplers() if s.startswith(f"vndf_{ndf}")]
+            colours = plt.cm.tab10.colors
+            points, used = [], set()
+            for sampler, colour in zip(samplers, colours):
+                for key, (_, _, marker) in POLICIES.items():
+                    name = f"{sampler}/{key}/stream"
+                    error = bench.counter(name, "err_p99")
+                    if error is None or not math.isfinite(error) or key == "cpp/float":
+                        continue
+                    error = max(error, 1e-3) * (DOUBLE_UNIT if key.endswith("double") else 1)
+                    point = bench.best[name]["ns_per_sample"], error
+                    points.append(point)
+                    used.add(key)
+                    axis.plot(*point, marker, color=colour, markersize=6, markeredgecolor="white", markeredgewidth=0.5)
+                axis.plot([], [], "o", color=colour, label=short(sampler).removeprefix(ndf + " "))
+            for key in POLICIES:
+                if key in used:
+                    axis.plot([], [], POLICIES[key][2], color="black", label=POLICIES[key][0])
+            front = pareto(points)
+            axis.step([x for x, _ in front], [y for _, y in front], where="post", color="black", linewidth=0.8,
+                      linestyle="--", label="Pareto front")
+            if not points:
+                axis.axis("off")
+                continue
+            axis.set_xscale("log")
+            axis.set_yscale("log")
+            axis.set_xlabel("ns a sample, streaming")
+            axis.set_ylabel("99th percentile of the error,\n$2^{-24}$ (1 + condition number)")
+            axis.set_title(f"{ndf.upper() if ndf == 'ggx' else 'Beckmann'}: {bench.device}", fontsize=9)
+            axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    return figure
+
+
+def speed_up(benches):
+    figure, axes = plt.subplots(1, len(benches), figsize=(11, 4.2), squeeze=False)
+    for axis, bench in zip(axes[0], benches):
+        names = [s for s in bench.samplers() if bench.ns(s, "published/float")]
+        series = []
+        for key, mode, label, colour in (("strict/float", "stream", "strict float, streaming", "#1f77b4"),
+                                         ("strict/float", "compute", "strict float, compute-bound", "#aec7e8"),
+                                         ("cpp/float", "stream", "C++, all threads, streaming", "#7f7f7f"),
+                                         ("cpp/float", "compute", "C++, all threads, compute-bound", "#c7c7c7")):
+            values = [bench.counter(f"{n}/{key}/{mode}", "speedup_over_published") for n in names]
+            series.append((label, colour, values))
+        bars(axis, [short(n) for n in names], series)
+        for k, (_, _, values) in enumerate(series):
+            for i, value in enumerate(values):
+                if value:
+                    axis.text(value, i + (k - 1.5) * 0.2, f" {value:.1f}", va="center", fontsize=7)
+        ratio_axis(axis)
+        axis.set_xlim(right=axis.get_xlim()[1] * 1.6)
+        axis.set_xlabel("times as fast as the published listing ported line by line")
+        axis.set_title(bench.device, fontsize=9)
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=2, frameon=False)
+    return figure
+
+
+def fraction_of_copy(benches):
+    names = list(dict.fromkeys(f for b in benches for f in b.functions if not f.endswith("_with_pdf")))
+    figure, axes = plt.subplots(1, len(benches), figsize=(11, 0.19 * len(names) + 1.2), squeeze=False, sharey=True)
+    for axis, bench in zip(axes[0], benches):
+        values = [bench.counter(f"{n}/strict/float/stream", "fraction_of_copy") for n in names]
+        bars(axis, [short(n) for n in names], [("strict float", "#1f77b4", values)])
+        axis.axvline(1, color="black", linewidth=0.8)
+        axis.set_xlabel("part of the bandwidth that the fastest copy of as many bytes reaches")
+        axis.set_title(bench.device, fontsize=9)
+        axis.tick_params(axis="y", labelsize=7)
+    return figure
+
+
+def cost_of_accuracy(benches):
+    steps = (("builtin over native", "builtin/float", "native/float", "#2ca02c"),
+             ("strict over builtin", "strict/float", "builtin/float", "#ff7f0e"),
+             ("strict double over strict float", "strict/double", "strict/float", "#17becf"))
+    names = list(dict.fromkeys(s for b in benches for s in b.samplers()))
+    figure, axes = plt.subplots(1, 2 * len(benches), figsize=(11, 0.42 * len(names) + 1.6), squeeze=False, sharey=True)
+    for i, bench in enumerate(benches):
+        for axis, mode in zip(axes[0][2 * i:], ("stream", "compute")):
+            series = []
+            for label, over, under, colour in steps:
+                pairs = [(bench.ns(n, over, mode), bench.ns(n, under, mode)) for n in names]
+                series.append((label, colour, [a / b if a and b else None for a, b in pairs]))
+            bars(axis, [short(n) for n in names], series)
+            ratio_axis(axis)
+            kind = "streaming" if mode == "stream" else "compute-bound"
+            axis.set_xlabel(f"ratio of times, {kind}")
+            axis.set_title(bench.device, fontsize=8)
+            axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.12), frameon=False)
+    return figure
+
+
+def build_times(benches):
+    figure, axes = plt.subplots(1, len(benches), figsize=(11, 3.6), squeeze=False)
+    for axis, bench in zip(axes[0], benches):
+        names = bench.samplers()
+        values = {kind: [bench.counter(f"{n}/strict/float/stream", f"build_{kind}_s") for n in names]
+                  for kind in ("cold", "warm")}
+        bars(axis, [short(n) for n in names], [("cold", "#1f77b4", values["cold"]), ("warm", "#aec7e8", values["warm"])])
+        axis.set_xlabel("seconds until the first launch of one function has run")
+        axis.set_title(bench.device, fontsize=9)
+        axis.legend(fontsize=7, frameon=False)
+    return figure
+
+
+CAP, CROSS = "vndf_ggx_sample_wm_dupuy2023", "vndf_ggx_sample_wm_heitz2018"
+BOUNDED, WORLD = "vndf_ggx_sample_wi_eto2023", "vndf_ggx_sample_wm_benyoub2024"
+
+
+def headline_rows(bench):
+    """The papers' claims beside what was measured: (claim, published, ours)."""
+    def gain(slow, fast, policy, mode):
+        a, b = bench.ns(slow, policy, mode), bench.ns(fast, policy, mode)
+        return f"{100 * (a / b - 1):+.0f} %" if a and b else "not measured"
+
+    def cells(slow, fast):
+        kinds = (("published listing, streaming", "published/float", "stream"),
+                 ("published listing, compute-bound", "published/float", "compute"),
+                 ("strict, streaming", "strict/float", "stream"), ("strict, compute-bound", "strict/float", "compute"))
+        return "; ".join(f"{label} {gain(slow, fast, policy, mode)}" for label, policy, mode in kinds)
+
+    def useful(policy):
+        a, b = (bench.counter(f"{s}/{policy}/stream", "ns_per_useful_sample") for s in (CAP, BOUNDED))
+        return f"{100 * (a / b - 1):+.0f} %" if a and b else "not measured"
+
+    return [
+        ("The cap is faster than the cross section (Dupuy & Benyoub 2023)", "+37.7 % CPU, +39.3 % and +53.0 % GPU",
+         cells(CROSS, CAP)),
+        ("The isotropic sampler without a basis is faster than cap plus basis (Benyoub 2024)", "+15 %",
+         "against the cap without the cost of a basis: " + cells(CAP, WORLD)),
+        ("Bounded sampling wastes fewer samples than the cap (Eto & Tokuyoshi 2023)",
+         "lower error in equal time, most at high roughness",
+         f"useful samples a second, alpha log-uniform in [1e-3, 1]: published listings {useful('published/float')}; "
+         f"strict {useful('strict/float')}"),
+    ]
+
+
+def table(head, rows):
+    cells = "".join(f"<th>{html.escape(h)}</th>" for h in head)
+    body = "".join("<tr>" + "".join(f"<td>{html.escape(str(c))}</td>" for c in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def number(value, form="{:.3g}"):
+    return "" if value is None else form.format(value)
+
+
+def entry_rows(bench):
+    for name, best in bench.best.items():
+        event = best.get("event_ns_per_sample")
+        yield (name, number(best["ns_per_sample"]), number(bench.median[name]["ns_per_sample"]),
+               number(100 * bench.spread.get(name, 0), "{:.0f} %"), number(event), number(best["ns_per_useful_sample"]),
+               number(best.get("fraction_of_copy"), "{:.2f}"), number(best.get("speedup_over_published"), "{:.1f}"),
+               number(best.get("err_p50")), number(best.get("err_p99")), number(best.get("err_max")))
+
+
+PLOTS = (
+    ("Accuracy against time", accuracy_against_time,
+     "Left and low is better. The error is the angle to the exact map over the inputs that are timed. The published "
+     "listings of 2014 draw from a fit (GGX), so that their distance from the exact map is no rounding error."),
+    ("Speed-up over the published listings", speed_up,
+     "The listings ported line by line, as one would paste them, with their errata corrected; same device, same run, "
+     "same harness."),
+    ("Bandwidth", fraction_of_copy,
+     "Inputs and outputs stream through memory as separate arrays. 1 is the fastest of three copy kernels that read and "
+     "write as many arrays."),
+    ("What each step of accuracy costs", cost_of_accuracy,
+     "Right of 1 the more accurate form takes longer; left of 1 it is the faster one as well."),
+    ("Build time", build_times, "One function's program: cold with an empty compiler cache, warm from the cache."),
+)
+
+STYLE = """body{font:15px/1.5 sans-serif;max-width:1120px;margin:2em auto;padding:0 1em;color:#222}
+svg{max-width:100%;height:auto} table{border-collapse:collapse;font-size:13px;margin:1em 0}
+td,th{border-bottom:1px solid #ddd;padding:2px 10px 2px 0;text-align:left;vertical-align:top}
+figure{margin:1em 0} figcaption{color:#555} details table{font-size:11px}"""
+
+
+def page(benches):
+    out = [f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>clvndf bench</title>"
+           f"<style>{STYLE}</style></head><body><h1>clvndf: accuracy against time</h1>"]
+    facts = ("device", "platform_version", "driver_version", "compute_units", "clock_mhz", "fp64", "fma",
+             "correctly_rounded_divide_sqrt", "build_options", "repetitions", "date", "host_name", "num_cpus",
+             "mhz_per_cpu", "clvndf_version")
+    out.append(table(["", *[f"run {i + 1}" for i in range(len(benches))]],
+                     [(f, *[b.context.get(f, "") for b in benches]) for f in facts if f != "host_name"]))
+    for title, plot, caption in PLOTS:
+        out.append(f"<h2>{title}</h2><figure>{svg(plot(benches))}<figcaption>{html.escape(caption)}</figcaption>"
+                   "</figure>")
+    out.append("<h2>The papers' headline figures, and ours</h2>")
+    for bench in benches:
+        out.append(f"<h3>{html.escape(bench.device)}</h3>")
+        out.append(table(["claim", "published", "measured here (faster: +)"], headline_rows(bench)))
+    out.append("<h2>All entries</h2><p>ns a sample by the wall clock (best, median, spread as standard deviation over "
+               "mean) and by the driver's event; errors in units of 2<sup>-24</sup> (double: 2<sup>-53</sup>) times "
+               "1 + condition number.</p>")
+    for bench in benches:
+        head = ["entry", "best", "median", "spread", "event", "useful", "of copy", "x published", "err p50", "err p99",
+                "err max"]
+        out.append(f"<details><summary>{html.escape(bench.device)}</summary>{table(head, entry_rows(bench))}</details>")
+    out.append("</body></html>\n")
+    return "\n".join(out)
+
+
+def main(arguments):
+    if len(arguments) < 2:
+        sys.exit(__doc__.strip())
+    text = page([Bench(path) for path in arguments[1:]])
+    with open(arguments[0], "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,80 @@
+"""The JSON of clvndf bench keeps its schema, and the report draws every figure from it. Nothing here depends on time.
+
+    bench_report_test.py SOURCE_FOLDER [CLVNDF]     CLVNDF: the command, to look at what it writes as well
+"""
+import copy
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+    import matplotlib  # noqa: F401
+except ImportError as missing:
+    print(f"skipped: {missing} (python3-jsonschema, python3-matplotlib)")
+    sys.exit(77)
+
+source = pathlib.Path(sys.argv[1])
+schema = json.loads((source / "tests/data/bench.schema.json").read_text())
+sample = source / "tests/data/bench.json"
+
+
+def valid(data):
+    try:
+        jsonschema.validate(data, schema)
+        return True
+    except jsonschema.ValidationError:
+        return False
+
+
+def figures(page):
+    return re.findall(r"<svg.*?</svg>", page, re.S)
+
+
+def check_schema():
+    data = json.loads(sample.read_text())
+    jsonschema.validate(data, schema)
+    # The schema can fail.
+    for spoil in (lambda d: d["context"].pop("device"),
+                  lambda d: d["benchmarks"].clear(),
+                  lambda d: d["benchmarks"][0].update(run_name="vndf_x/fast/float/stream"),
+                  lambda d: [b.pop("err_p99", None) for b in d["benchmarks"]],
+                  lambda d: [b.pop("fraction_of_copy", None) for b in d["benchmarks"]]):
+        spoilt = copy.deepcopy(data)
+        spoil(spoilt)
+        assert not valid(spoilt), "a spoilt file passes"
+
+
+def check_report():
+    with tempfile.TemporaryDirectory() as folder:
+        for inputs in ([sample], [sample, sample]):
+            page = pathlib.Path(folder) / "index.html"
+            subprocess.run([sys.executable, source / "bench/report.py", page, *inputs], check=True)
+            text = page.read_text()
+            drawn = figures(text)
+            plots = len(re.findall(r"^    \(\"", (source / "bench/report.py").read_text(), re.M))
+            assert plots >= 5 and len(drawn) == plots, f"{len(drawn)} figures of {plots}"
+            for i, figure in enumerate(drawn):
+                marks = len(re.findall(r'<g id="patch_|<g id="line2d_', figure))
+                assert marks > 10 and "nan" not in figure, f"figure {i} is empty"
+            assert not re.search(r'(src|href)="(https?:)?//', text), "the page loads something"
+            assert "not measured" not in text
+
+
+def check_command(clvndf):
+    run = subprocess.run([clvndf, "--quiet", "bench", "--only", "jacobian_reflect/strict/float", "--repetitions", "3",
+                          "--json", "-"], check=True, stdout=subprocess.PIPE)
+    data = json.loads(run.stdout)
+    jsonschema.validate(data, schema)
+    names = {b["run_name"] for b in data["benchmarks"]}
+    assert "vndf_jacobian_reflect/strict/float/stream" in names, names
+    assert "vndf_jacobian_reflect/strict/float/compute" in names, names
+
+
+check_schema()
+check_report()
+if len(sys.argv) > 2:
+    check_command(sys.argv[2])
