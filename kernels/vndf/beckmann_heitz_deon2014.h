@@ -34,9 +34,11 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
 
     // |x| = erfinv(p) with p = 1 - q; for the edge, sqrt(a^2 - log(mass / edge)).
-    // Rounding must not carry mass beyond the plateau: x would pass the edge of the visible.
-    VNDF_REAL q = outer ? vndf_impl_min((mass - edge) / plateau, VNDF_R(1.0)) * beyond
-                        : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
+    // Rounding must not carry mass beyond the plateau, where x would pass the edge of the visible, nor before it,
+    // where x has no end.
+    VNDF_REAL share = (shallow ? -r * edge : mass - edge) / plateau;
+    share = vndf_impl_max(vndf_impl_min(share, VNDF_R(1.0)), VNDF_U_MIN);
+    VNDF_REAL q = outer ? share * beyond : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
     VNDF_REAL rest = shallow ? VNDF_R(1.0) - r : mass / edge;
     VNDF_REAL w = -vndf_impl_log(at_edge ? rest : q * (VNDF_R(1.0) + p));

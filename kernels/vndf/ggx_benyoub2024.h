@@ -46,6 +46,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
               ez = n.z < VNDF_R(0.0) ? -along_w : along_w;
     VNDF_REAL hx = VNDF_FMA(sin_o, ex, cap.tangent * vx), hy = VNDF_FMA(sin_o, ey, cap.tangent * vy),
               hz = VNDF_FMA(sin_o, ez, cap.tangent * vz), height = rest * cap.sqrt_p;
+    // The two parts are across n to their own rounding, which is much to a sum that nearly vanishes.
+    VNDF_REAL lean = VNDF_FMA(hx, n.x, VNDF_FMA(hy, n.y, hz * n.z));
+    hx = VNDF_FMA(-lean, n.x, hx);
+    hy = VNDF_FMA(-lean, n.y, hy);
+    hz = VNDF_FMA(-lean, n.z, hz);
     // Rounding may put a nearly vanishing half vector behind the silhouette (ggx_dupuy2023.h).
     VNDF_REAL behind = -VNDF_FMA(vx, hx, VNDF_FMA(vy, hy, VNDF_FMA(vz, hz, z * height)));
     VNDF_REAL back = vndf_impl_max(behind, VNDF_R(0.0)) * v.rcp_l * v.rcp_l;
@@ -99,14 +104,15 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_benyoub2024_with_pdf(VNDF_REAL3 wo, VNDF_R
 // Accuracy: 16 for the vectors as given.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wm, VNDF_REAL alpha) {
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL wm_z = vndf_impl_dot(wm.x, wm.y, wm.z, n.x, n.y, n.z);
+    // In another order than wo . n: two products of one shape would be packed (frame.h).
+    VNDF_REAL wm_z = vndf_impl_dot(n.z, n.x, n.y, wm.z, wm.x, wm.y);
     VNDF_REAL wo_z = vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z);
     VNDF_REAL a = vndf_impl_alpha(alpha);
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
     VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(n, wm)), VNDF_R(0.0), wm_z, a, a);
     VNDF_REAL pdf = (VNDF_2_PI / ((q * a) * (q * a))) * (cos_om / twice_sigma);
-    int visible = wm_z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
+    int visible = vndf_impl_min(wm_z, cos_om) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
