@@ -10,6 +10,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/check.h"
+#include "conformance/digest.h"
 #include "conformance/exhaustive.h"
 #include "error.h"
 
@@ -20,6 +21,8 @@ struct Check {
     Target target;
     std::string only, json, junit;
     bool quick = false;
+    bool digest = false;
+    std::string on = "device";  // whose digest
     bool exhaustive = false;
     double minutes = 0;  // 0: to the end
     std::string slice = "1/1";
@@ -31,6 +34,40 @@ std::vector<const Function*> selected_by(const Check& options) {
     throw InputError(
         fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
                     options.only, fmt::join(nearest_names(options.only), ", ")));
+}
+
+// One hash a function, and nothing else on the standard output.
+void run_digest(const Check& options, Common& common) {
+    const auto selected = selected_by(options);
+    conformance::BitsOptions bits;
+    bits.math = options.target.math();
+    if (options.quick) bits.rows = conformance::quick_digest_rows;
+    const Progress progress(common.quiet);
+    bits.progress = [&](const std::string& what, double done) { progress(what, done); };
+
+    std::unique_ptr<runtime::Evaluator> evaluator;
+    if (options.on == "host") {
+        evaluator = std::make_unique<runtime::HostEvaluator>(bits.math, options.target.real());
+    } else {
+        const runtime::Device device = options.target.choose(common);
+        bits.flushes = bits.math == runtime::Math::strict && !device.denormals;
+        runtime::ProgramOptions program;
+        if (!options.only.empty()) program.functions = conformance::needed(selected);
+        progress("building the program", 0);
+        evaluator =
+            std::make_unique<runtime::DeviceEvaluator>(device, bits.math, options.target.real(), program);
+    }
+    const auto digests = conformance::digests(*evaluator, selected, bits);
+    progress.clear();
+    if (bits.flushes && !common.quiet) {
+        fmt::print(stderr,
+                   "clvndf: {} flushes subnormal numbers; exempt, with the host build's results instead:\n",
+                   evaluator->describe());
+        for (const conformance::Digest& digest : digests)
+            if (digest.exempt > 0)
+                fmt::print(stderr, "  {} {} of {}\n", digest.function->name, digest.exempt, bits.rows);
+    }
+    fmt::print("{}", conformance::format_digests(digests));
 }
 
 std::atomic<bool> interrupted{false};
@@ -74,6 +111,7 @@ void run_exhaustive(const Check& options, Common& common) {
 
 void run_check(const Check& options, Common& common) {
     if (options.exhaustive) return run_exhaustive(options, common);
+    if (options.digest) return run_digest(options, common);
     const auto selected = selected_by(options);
     if (options.json == "-" && options.junit == "-")
         throw InputError("--json - and --junit -: only one of them can have the standard output");
@@ -124,6 +162,19 @@ void add_check(CLI::App& app, Common& common) {
             ->excludes(quick)
             ->excludes(json)
             ->excludes(junit);
+    CLI::Option* digest =
+        command
+            ->add_flag(
+                "--digest", options->digest,
+                "instead: a hash for each function of its results at 2^20 fixed inputs (--quick: 2^12);\n"
+                "strict ones are the same on every device")
+            ->excludes(json)
+            ->excludes(junit)
+            ->excludes(exhaustive);
+    command->add_option("--on", options->on, "whose digests: device or host (the headers as C++)")
+        ->needs(digest)
+        ->check(CLI::IsMember({"device", "host"}))
+        ->capture_default_str();
     command->add_option("--minutes", options->minutes, "end the exhaustion after this time")
         ->needs(exhaustive)
         ->check(CLI::PositiveNumber);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "conformance/digest.h"
 #include "conformance/grids.h"
 #include "conformance/known_bias.h"
 #include "conformance/lobes.h"
@@ -105,7 +106,7 @@ class Run {
   public:
     Run(runtime::DeviceEvaluator& evaluator, runtime::Math math, const std::vector<const Function*>& selected,
         const CheckOptions& options)
-        : evaluator_(evaluator), options_(options) {
+        : evaluator_(evaluator), math_(math), options_(options) {
         report_.device = evaluator.device().label();
         report_.options = evaluator.build_options();
         report_.math = to_string(math);
@@ -134,6 +135,7 @@ class Run {
             report_.functions.push_back({function, findings(*function)});
             work_done_ += work(*function);
         }
+        if (math_ == runtime::Math::strict) compare_bits(selected);
         options_.progress("", 1);
         report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::move(report_);
@@ -143,6 +145,13 @@ class Run {
     // In lobes.
     double work(const Function& function) const {
         return 2 + (is_sampled(function) ? static_cast<double>(lobes(function, options_.quick).size()) : 0);
+    }
+
+    void compare_bits(const std::vector<const Function*>& selected) {
+        BitsOptions bits;
+        bits.rows = report_.bit_rows = options_.quick ? quick_digest_rows : std::size_t{1} << 16;
+        bits.flushes = !evaluator_.device().denormals;
+        report_.bits = compare_with_host(evaluator_, selected, bits);
     }
 
     std::vector<Finding> findings(const Function& function) {
@@ -195,6 +204,7 @@ class Run {
     }
 
     runtime::DeviceEvaluator& evaluator_;
+    runtime::Math math_;
     const CheckOptions& options_;
     PointwiseOptions pointwise_;
     Report report_;

@@ -87,6 +87,7 @@ std::string format_table(const Report& report) {
         "test)\n",
         report.functions.size(), count(Verdict::pass), count(Verdict::known_bias), count(Verdict::fail),
         report.seconds, report.seed, report.tests, report.samples, report.family_rate, report.level);
+    if (report.bit_rows > 0) text += format_differences(report.bits, report.bit_rows);
     return text;
 }
 
@@ -110,6 +111,14 @@ std::string format_json(const Report& report) {
                              {"verdict", to_string(f.verdict())},
                              {"findings", std::move(findings)}});
     }
+    nlohmann::ordered_json bits = nlohmann::ordered_json::array();
+    for (const BitDifference& d : report.bits)
+        if (d.differing > 0 || d.exempt > 0)
+            bits.push_back({{"name", d.function->name},
+                            {"differing", d.differing},
+                            {"exempt", d.exempt},
+                            {"ulps", d.ulps},
+                            {"worst_input", d.worst}});
     const nlohmann::ordered_json document{{"passed", report.passed()},
                                           {"device", report.device},
                                           {"build_options", report.options},
@@ -122,6 +131,8 @@ std::string format_json(const Report& report) {
                                           {"family_false_alarm_rate", report.family_rate},
                                           {"level_per_test", report.level},
                                           {"seconds", report.seconds},
+                                          {"bits_compared_with_host_build", report.bit_rows},
+                                          {"bits_different_or_exempt", std::move(bits)},
                                           {"functions", std::move(functions)}};
     return document.dump(2) + "\n";
 }

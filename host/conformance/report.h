@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "conformance/digest.h"
 #include "registry.h"
 
 namespace vndf::conformance {
@@ -41,6 +42,10 @@ struct Report {
     std::vector<FunctionReport> functions;
     std::string device, options;  // as they describe themselves
     std::string math, real;
+    // Strict: how the results differ from the host build's, whose bits are promised; bit_rows inputs a function.
+    // Stated, not judged: a device without correctly rounded division cannot keep them.
+    std::vector<BitDifference> bits;
+    std::size_t bit_rows = 0;
     std::uint64_t seed = 0;
     bool quick = false;
     std::size_t samples = 0;  // for each lobe
