@@ -605,7 +605,7 @@ class Table {
         const std::size_t components = std::min<std::size_t>(3, out.size());
         const Real scale = out.size() == 1 ? Real(abs(out[0])) : Real(1), pdf = with_pdf ? out[3] : Real(0);
         Real condition = 0, pdf_condition = 0;
-        const Real step(1e-8);
+        const Real step(1e-12);
         effort.quadrature = Real(1e-42), effort.residual = Real(1e-39), effort.again = true;
         for (std::size_t j = 0; j < x.size() && scale > 0; ++j) {
             // At normal incidence the sine has no derivative by the cosine.
