@@ -56,7 +56,7 @@ void add_invariants(const Function& sampler, const RowReader& reader, const doub
     if (!std::isfinite(condition) || sampler.result != "WM") return;
     const double depth = std::max(0.0, -dot(d, reader.n(row))) / unit;
     errors.below.add(reader.has_n() ? depth / (1 + condition) : depth, i);
-    if (reader.has_wo() && condition * unit < 0.01)
+    if (reader.has_wo() && is_settled(condition))
         errors.behind.add(std::max(0.0, -dot(d, reader.wo(row)) / length(reader.wo(row))) / unit, i);
 }
 

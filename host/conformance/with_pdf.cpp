@@ -79,6 +79,7 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     // direction does: its own condition number is its due, and (1 + 2q) that of a Beckmann density.
     const auto evaluation = reference::find_evaluation<double>(s.sampler.name);
     const double condition = relative_condition(s.sampler, evaluation, row.data(), precision(s.real), 3);
+    if (!is_settled(condition)) return;
     const double d[3] = {static_cast<double>(exact[0]), static_cast<double>(exact[1]),
                          static_cast<double>(exact[2])};
     const double allowance = std::max(1 + condition, exponent_factor(s.sampler, reader, row.data(), d));
@@ -103,7 +104,7 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
         std::max(relative_condition(s.density, density, at.data(), precision(s.real)),
                  relative_condition(s.density, density, at_exact.data(), precision(s.real)));
     const double map_condition = reference::condition(s.sampler.name, row.data(), precision(s.real));
-    if (!(movement * unit < 0.01) || !(map_condition * unit < 0.01)) return;
+    if (!is_settled(movement) || !is_settled(map_condition)) return;
     errors.agreement.add(
         std::abs((s.separate[0][i] - pdf) / pdf) / unit / ((1 + movement) * (1 + map_condition)), i);
 }

@@ -185,7 +185,13 @@ std::vector<double> Distribution::bin_probabilities(const Bins& bins) const {
         std::vector<double> sums(tangents.size()), edges{a};
         for (const double x : breaks)
             if (x > a && x < b) edges.push_back(x);
+        // Behind the surface a Beckmann lobe is a ridge, as thin as 1 / a^2, along which both angles go together: it
+        // may leave a bin through a corner so close to its end that only panels graded towards it notice.
+        if (kind_ == Kind::beckmann && cos_ < 0)
+            for (double d = (b - a) / 8; d > 1e-7 * (b - a); d /= 8)
+                edges.insert(edges.end(), {a + d, b - d});
         edges.push_back(b);
+        std::sort(edges.begin(), edges.end());
         for (std::size_t i = 0; i + 1 < edges.size(); ++i)
             if (edges[i] < edges[i + 1]) integrate(f, edges[i], edges[i + 1], 1e-10, sums);
         for (std::size_t i = 0; i < n_theta; ++i) result[i * n_phi + j] = std::max(0., sums[i + 1] - sums[i]);
