@@ -20,30 +20,27 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
     VNDF_REAL within = vndf_impl_erf_of(i.a, beyond);
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, plateau = VNDF_R(0.5) * i.c * beyond;
-    VNDF_REAL mass = u1 * i.sigma;
-    // Above u1 = 1/2, 1 - mass / edge keeps the digits of 1 - u1.
+    VNDF_REAL mass = u1 * i.sigma, mass_above = (VNDF_R(1.0) - u1) * i.sigma;
+    // mass - edge; sigma is edge + c - plateau, which above u1 = 1/2 keeps the digits of 1 - u1.
     int shallow = u1 > VNDF_R(0.5);
-    VNDF_REAL r = (VNDF_FMA(VNDF_R(1.0) - u1, i.sigma, plateau) - i.c) / edge;
-    int at_edge = shallow ? r >= VNDF_R(0.0) : mass <= edge, outer = at_edge || mass <= edge + plateau;
+    VNDF_REAL excess = shallow ? i.c - (mass_above + plateau) : mass - edge;
+    int at_edge = excess <= VNDF_R(0.0), outer = excess <= plateau;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
-    VNDF_REAL upper = (VNDF_R(1.0) - u1) * i.sigma / (i.c * within);
+    VNDF_REAL upper = mass_above / (i.c * within), lower = (excess - plateau) / (i.c * within);
     int left = upper > VNDF_R(0.5);
-    VNDF_REAL lower = ((mass - edge) - plateau) / (i.c * within);
     VNDF_REAL less = vndf_impl_max(left ? lower : upper, VNDF_R(0.0));
     VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
 
-    // |x| = erfinv(p) with p = 1 - q; for the edge, sqrt(a^2 - log(mass / edge)).
-    // Rounding must not carry mass beyond the plateau, where x would pass the edge of the visible, nor before it,
-    // where x has no end.
-    VNDF_REAL share = (shallow ? -r * edge : mass - edge) / plateau;
-    share = vndf_impl_max(vndf_impl_min(share, VNDF_R(1.0)), VNDF_U_MIN);
-    VNDF_REAL q = outer ? share * beyond : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
+    // |x| = erfinv(p) with p = 1 - q; at the edge, sqrt(a^2 - log(mass / edge)), the logarithm with the rounding error of
+    // its argument 1 + r. Rounding must not carry the excess beyond the plateau: x would pass the edge of the visible.
+    VNDF_REAL r = excess / edge, rest = shallow ? VNDF_R(1.0) + r : mass / edge;
+    VNDF_REAL q = outer ? vndf_impl_min(excess / plateau, VNDF_R(1.0)) * beyond
+                        : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
-    VNDF_REAL rest = shallow ? VNDF_R(1.0) - r : mass / edge;
     VNDF_REAL w = -vndf_impl_log(at_edge ? rest : q * (VNDF_R(1.0) + p));
     VNDF_REAL size = p * vndf_impl_erfinv_ratio_of_log(w);
-    w -= shallow ? ((VNDF_R(1.0) - rest) - r) / rest : VNDF_R(0.0);
+    w -= shallow ? ((VNDF_R(1.0) - rest) + r) / rest : VNDF_R(0.0);
     size = at_edge ? VNDF_SQRT(VNDF_FMA(i.a, i.a, vndf_impl_max(w, VNDF_R(0.0)))) : size;
     VNDF_REAL x = outer || left ? -size : size;
 
