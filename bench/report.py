@@ -258,8 +258,8 @@ def entry_rows(bench):
 
 PLOTS = (
     ("Accuracy against time", accuracy_against_time,
-     "Left and low is better. The error is the angle to the exact map over the inputs that are timed. The published "
-     "listings of 2014 draw from a fit (GGX), so that their distance from the exact map is no rounding error."),
+     "Left and low is better. The error is the angle between the result and what exact arithmetic would give for the same "
+     "map, over the inputs that are timed; the GGX listing of 2014 is judged against its own fit, whose bias comes on top."),
     ("Speed-up over the published listings", speed_up,
      "The listings ported line by line, as one would paste them, with their errata corrected; same device, same run, "
      "same harness."),

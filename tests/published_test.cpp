@@ -1,0 +1,82 @@
+// The published listings under bench/published are what clvndf bench compares with: a time only means something if the
+// listing draws from the distribution it was published for.
+#include <string>
+#include <vector>
+
+#include "conformance/grids.h"
+#include "conformance/known_bias.h"
+#include "conformance/lobes.h"
+#include "runtime/device_evaluator.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace vndf;
+using namespace vndf::conformance;
+
+constexpr std::size_t samples = std::size_t{1} << 17;
+
+runtime::DeviceEvaluator published() {
+    runtime::ProgramOptions options;
+    options.root = "bench/published/batch.cl";
+    return {runtime::choose_device().device, runtime::Math::builtin, runtime::Real::f32, options};
+}
+
+std::vector<const Function*> listings(const runtime::DeviceEvaluator& evaluator) {
+    const std::string kernels = ";" + evaluator.program().getInfo<CL_PROGRAM_KERNEL_NAMES>() + ";";
+    std::vector<const Function*> all;
+    for (const Function& f : functions())
+        if (kernels.find(";vndf_batch_" + f.name + ";") != std::string::npos) all.push_back(&f);
+    return all;
+}
+
+// The listings are meant for wo above the surface.
+std::vector<Point> front_lobes(const Function& sampler) {
+    std::vector<Point> all = lobes(sampler, true);
+    std::erase_if(all, [](const Point& lobe) { return lobe.cos_theta <= 0; });
+    return all;
+}
+
+// The tests of one lobe that say that the directions `sampler` drew are not those of `density_of`.
+std::string failures(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Function& density_of,
+                     const Point& lobe, std::uint64_t stream, double level) {
+    const Table table = tabulate(sampler, {lobe}, Rounding::to_float);
+    std::vector<std::vector<float>> columns;
+    std::vector<const void*> inputs;
+    for (const double value : table.row(0)) columns.emplace_back(samples, static_cast<float>(value));
+    evaluator.uniforms(1, stream, samples, columns.at(column(sampler, "u1")).data(),
+                       columns.at(column(sampler, "u2")).data());
+    for (const auto& values : columns) inputs.push_back(values.data());
+    std::vector<float> x(samples), y(samples), z(samples);
+    evaluator.run(sampler, samples, inputs, {x.data(), y.data(), z.data()});
+    std::string failed;
+    for (const LobeTest& test : test_lobe(density_of, table.row(0), samples, x.data(), y.data(), z.data(),
+                                          level, known_bias(sampler)))
+        if (test.is_p ? test.figure < level : test.figure > 1)
+            failed += std::string(test.name) + " " + std::to_string(test.figure) + "; ";
+    return failed;
+}
+
+}  // namespace
+
+TEST_CASE("the published listings draw from their densities, the fit with its known bias") {
+    runtime::DeviceEvaluator evaluator = published();
+    const auto all = listings(evaluator);
+    REQUIRE(all.size() == 7);
+    std::size_t tests = 0;
+    for (const Function* f : all) tests += front_lobes(*f).size() * tests_per_lobe(*f);
+    for (const Function* f : all) {
+        std::uint64_t stream = 0;
+        for (const Point& lobe : front_lobes(*f)) {
+            CAPTURE(f->name, lobe.cos_theta, lobe.alpha[0], lobe.alpha[1]);
+            CHECK(failures(evaluator, *f, *f, lobe, ++stream, sidak(1e-6, tests)) == "");
+        }
+    }
+}
+
+TEST_CASE("a listing that draws from another density is found out") {
+    runtime::DeviceEvaluator evaluator = published();
+    const Function& beckmann = *find_function("vndf_beckmann_sample_wm_heitz_deon2014");
+    const Function& ggx = *find_function("vndf_ggx_sample_wm_heitz2018");
+    CHECK(failures(evaluator, beckmann, ggx, front_lobes(ggx).front(), 1, 1e-9) != "");
+}
