@@ -31,16 +31,21 @@ VNDF_FN int vndf_exhaustive_unit(VNDF_REAL4 d, VNDF_REAL slack) {
     return vndf_impl_abs(excess) <= VNDF_R(2.0) * slack;
 }
 
-// Whether wi lies in the cap of Eto & Tokuyoshi 2023, wherever rounding of 4 eps may have moved it: the stretched
-// reflection's height h2 h.z / (q r) - wo.z / r is at least -k wo.z / r, where h = wo + wi, q = |h stretched|^2.
+// Whether wi lies in the cap of Eto & Tokuyoshi 2023, wherever rounding may have moved it: the stretched reflection's
+// height h2 h.z / (q r) - wo.z / r is at least -k wo.z / r, where h = wo + wi, q = |h stretched|^2, r = |wo stretched|.
+// What is rounded to eps, apart from wi itself, is the sampler's half vector in the stretched frame, whose length is
+// h2 / (r sqrt(q)): that moves wi by alpha r q / h2 eps.
 VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 wi) {
-    const VNDF_REAL move = VNDF_R(4.0) * VNDF_EPSILON;
-    VNDF_REAL rx = VNDF_R(1.0) / vndf_impl_alpha(alpha.x), ry = VNDF_R(1.0) / vndf_impl_alpha(alpha.y);
-    VNDF_REAL a = vndf_impl_min(vndf_impl_max(vndf_impl_min(alpha.x, alpha.y), VNDF_ALPHA_MIN), VNDF_R(1.0));
-    VNDF_REAL z = vndf_impl_max(wo.z, VNDF_R(0.0)), s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
+    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha(alpha.y);
+    VNDF_REAL rx = VNDF_R(1.0) / ax, ry = VNDF_R(1.0) / ay, low = vndf_impl_min(ax, ay);
+    VNDF_REAL r = VNDF_SQRT(ax * wo.x * ax * wo.x + ay * wo.y * ay * wo.y + wo.z * wo.z);
+    VNDF_REAL a = vndf_impl_min(low, VNDF_R(1.0)), z = vndf_impl_max(wo.z, VNDF_R(0.0));
+    VNDF_REAL s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
     VNDF_REAL rest = a * a * (s * s + z * z) / (s * s + a * a * z * z);  // 1 - k
-    VNDF_REAL hx = wo.x + wi.x, hy = wo.y + wi.y, hz = wo.z + wi.z, h2 = hx * hx + hy * hy + hz * hz;
+    VNDF_REAL hx = wo.x + wi.x, hy = wo.y + wi.y, hz = wo.z + wi.z;
+    VNDF_REAL h2 = vndf_impl_max(hx * hx + hy * hy + hz * hz, VNDF_EPSILON * VNDF_EPSILON);
     VNDF_REAL sx = hx * rx, sy = hy * ry, q = sx * sx + sy * sy + hz * hz;
+    VNDF_REAL move = VNDF_R(4.0) * VNDF_EPSILON * (VNDF_R(1.0) + vndf_impl_max(ax, ay) * r * q / h2);
     VNDF_REAL sum = vndf_impl_abs(hx) + vndf_impl_abs(hy) + vndf_impl_abs(hz) + move;
     VNDF_REAL turn = VNDF_R(2.0) * (vndf_impl_abs(sx) * rx + vndf_impl_abs(sy) * ry + vndf_impl_abs(hz)) +
                      move * (rx * rx + ry * ry + VNDF_R(1.0));

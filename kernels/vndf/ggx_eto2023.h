@@ -47,8 +47,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     VNDF_REAL gx = v.alpha_x * hx, gy = v.alpha_y * hy;
     VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
     VNDF_REAL cosine = VNDF_FMA(wo.x, gx, VNDF_FMA(wo.y, gy, wo.z * hz));
-    // A visible normal faces wo; rounding may deny it at the silhouette.
-    cosine = cosine > VNDF_R(0.0) ? cosine : VNDF_R(0.0);
+    // v . h = |h|^2 / 2 as well. At a silhouette, where the sum cancels, it alone keeps the reflection in its cap.
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
+    int silhouette = cosine * cosine < VNDF_R(0.015625) * g2;
+    cosine = silhouette ? VNDF_R(0.5) * v.r * sqrt_b * h2 : cosine;
     int defined = g2 > VNDF_R(0.0);
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, gx, -wo.x), oy = VNDF_FMA(twice, gy, -wo.y),
@@ -57,8 +59,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     o.x = ox * rcp_o;
     o.y = oy * rcp_o;
     o.z = oz * rcp_o;
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = g2 / h2;
-    VNDF_REAL n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
+    VNDF_REAL ratio = g2 / h2,
+              n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
     VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return o;
