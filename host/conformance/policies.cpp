@@ -163,7 +163,7 @@ std::string format_table(const PolicyReport& report) {
                                 finding.p99, finding.max, finding.limit, f.non_finite, f.different, f.rows);
             }
     text += fmt::format(
-        "\nErrors in 2^-{} of what each function is judged by (clvndf check --json names it); limit: of the "
+        "\nErrors in 2^-{} of what each function is judged by (--json names it); limit: of the "
         "p99, "
         "for values of the\nmaximum. other bits: rows that differ from strict without flags.\n\n",
         report.real == "float" ? 24 : 53);
@@ -179,9 +179,11 @@ std::string format_table(const PolicyReport& report) {
         text += fmt::format("{} {}:\n", entry.build.name(),
                             entry.build.promised() ? "BREAKS its promises" : "breaks");
         for (const auto& [claim, names] : broken) {
-            const bool all = names.size() == entry.functions.size();
+            constexpr std::size_t listed = 12;
             text += fmt::format("  {}: {}\n", claim,
-                                all ? "every function" : fmt::format("{}", fmt::join(names, ", ")));
+                                names.size() <= listed ? fmt::format("{}", fmt::join(names, ", "))
+                                                       : fmt::format("{} of {} functions", names.size(),
+                                                                     entry.functions.size()));
         }
     }
     return text + fmt::format("\n{} on {}, seed {}, {:.0f} s\n", report.real, report.device, report.seed,
