@@ -19,6 +19,7 @@ std::string all_options(const Device& device, Math math, Real real, const Progra
     std::string text =
         fmt::format("-cl-std=CL1.2 -DVNDF_REAL={} -DVNDF_MATH={}", to_string(real), to_string(math));
     if (device.correct_divide_sqrt) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    if (!device.fma) text += " -DVNDF_SOFTWARE_FMA=1";
     if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
     if (!options.build_options.empty()) text += ' ' + options.build_options;
     return text;

@@ -6,6 +6,8 @@
 //              polynomials: the same bits on every device that rounds division and sqrt correctly;
 //              builtin: OpenCL's sinpi, log, erf ... with the specification's bounds;
 //              native: native_* where OpenCL has one (float only; OpenCL only), never promised
+//   VNDF_SOFTWARE_FMA  0 (default); 1 for OpenCL devices that do not report CL_FP_FMA: libclc's emulated fma gives
+//              -0 for (-0) + 0, which costs `strict` the sign of a zero
 // For C++ users with vector types of their own (members x, y, z, w; brace initialisation):
 //   VNDF_REAL2, VNDF_REAL3, VNDF_REAL4
 //
@@ -20,6 +22,9 @@
 #endif
 #ifndef VNDF_MATH
 #define VNDF_MATH strict
+#endif
+#ifndef VNDF_SOFTWARE_FMA
+#define VNDF_SOFTWARE_FMA 0
 #endif
 
 #define VNDF_CAT_(a, b) a##b
@@ -57,7 +62,14 @@
 #define VNDF_MAKE2(x, y) ((VNDF_REAL2)((x), (y)))
 #define VNDF_MAKE3(x, y, z) ((VNDF_REAL3)((x), (y), (z)))
 #define VNDF_MAKE4(x, y, z, w) ((VNDF_REAL4)((x), (y), (z), (w)))
+#if VNDF_SOFTWARE_FMA
+VNDF_FN VNDF_REAL vndf_impl_fma(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c) {
+    return c == VNDF_R(0.0) ? a * b + c : fma(a, b, c);
+}
+#define VNDF_FMA(a, b, c) vndf_impl_fma(a, b, c)
+#else
 #define VNDF_FMA(a, b, c) fma((VNDF_REAL)(a), (VNDF_REAL)(b), (VNDF_REAL)(c))
+#endif
 #define VNDF_SQRT(x) sqrt((VNDF_REAL)(x))
 #if VNDF_DOUBLE
 #define VNDF_INT long

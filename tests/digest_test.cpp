@@ -1,0 +1,156 @@
+// Strict float has the same bits on every device and in every host build: digests of tests/data, made by
+//   clvndf check --digest --on host >tests/data/digests.txt
+//   clvndf check --digest --on host --quick >tests/data/digests_quick.txt
+// Compilers and options: same_bits.sh. Other devices: other_devices.sh.
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "conformance/check.h"
+#include "conformance/digest.h"
+#include "conformance/grids.h"
+#include "runtime/device_evaluator.h"
+#include "support/catch.h"
+#include "support/command.h"
+
+namespace vndf {
+namespace {
+
+std::string committed(const std::string& name) {
+    std::ifstream file(CLVNDF_SOURCE_DIR "/tests/data/" + name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The names whose lines differ.
+std::set<std::string> differing(const std::string& a, const std::string& b) {
+    std::istringstream left(a), right(b);
+    std::set<std::string> names;
+    std::string x, y;
+    while (std::getline(left, x) && std::getline(right, y))
+        if (x != y) names.insert(x.substr(0, x.find(' ')));
+    REQUIRE((!std::getline(left, x) && !std::getline(right, y)));
+    return names;
+}
+
+conformance::BitsOptions bits_of(std::size_t rows) {
+    conformance::BitsOptions options;
+    options.rows = rows;
+    return options;
+}
+
+const conformance::BitsOptions quick = bits_of(conformance::quick_digest_rows);
+
+}  // namespace
+
+TEST_CASE("the device has the committed digests") {
+    const Outcome run = clvndf("check --digest");
+    CHECK(run.status == 0);
+    CHECK(run.err == "");
+    CHECK(differing(run.out, committed("digests.txt")) == std::set<std::string>());
+    CHECK(clvndf("check --digest --quick").out == committed("digests_quick.txt"));
+}
+
+TEST_CASE("the host build has the committed digests") {
+    CHECK(differing(clvndf("check --digest --on host").out, committed("digests.txt")) ==
+          std::set<std::string>());
+    CHECK(clvndf("check --digest --on host --quick").out == committed("digests_quick.txt"));
+}
+
+TEST_CASE("a digest is a line of name and hash for each function asked for, in the registry's order") {
+    std::istringstream lines(committed("digests.txt"));
+    for (const Function& function : functions()) {
+        std::string name, hash;
+        lines >> name >> hash;
+        CHECK(name == function.name);
+        CHECK(hash.size() == 16);
+    }
+    const Outcome one = clvndf("check --digest --quick --only vndf_reflect");
+    CHECK(one.out.find("vndf_reflect ") == 0);
+    CHECK(committed("digests_quick.txt").find(one.out) != std::string::npos);
+    CHECK(clvndf("check --digest --quick --real double --only vndf_reflect").out != one.out);
+    CHECK(clvndf("check --digest --json -").status == 2);
+    CHECK(clvndf("check --on host").status == 2);
+    CHECK(clvndf("check --digest --on host --math native").status == 2);
+}
+
+TEST_CASE("the double precision device has the host build's bits") {
+    const std::string options = "check --digest --quick --real double";
+    CHECK(differing(clvndf(options).out, clvndf(options + " --on host").out) == std::set<std::string>());
+}
+
+TEST_CASE("the inputs of a digest are 2^20 rows with the whole hard grid") {
+    const Function& sampler = *find_function("vndf_ggx_sample_wm_dupuy2023");
+    const conformance::Table table =
+        conformance::digest_inputs(sampler, conformance::digest_rows, runtime::Real::f32);
+    CHECK(table.rows() == std::size_t{1} << 20);
+    const conformance::Table hard =
+        conformance::tabulate(sampler, conformance::hard_points(sampler), conformance::Rounding::to_float);
+    for (std::size_t i = 0; i < hard.rows(); i += 97) CHECK(table.row(i) == hard.row(i));
+}
+
+TEST_CASE("one rounding more changes the digest and is told apart") {
+    const std::string name = "vndf_ggx_sample_wm_dupuy2023";
+    runtime::ProgramOptions program;
+    program.functions = {name};
+    program.substitutions = {
+        {"kernels/vndf/ggx_dupuy2023.h", "VNDF_FMA(rest, cap.p, cap.q)", "(rest * cap.p + cap.q)", 1}};
+    program.mutant = 1;
+    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
+                                    runtime::Real::f32, program);
+    const std::vector<const Function*> selected{find_function(name)};
+    const std::string slipped = format_digests(conformance::digests(device, selected, quick));
+    CHECK(committed("digests_quick.txt").find(slipped) == std::string::npos);
+
+    const auto differences = conformance::compare_with_host(device, selected, quick);
+    REQUIRE(differences.size() == 1);
+    CHECK(differences[0].differing > 0);
+    const std::string text = conformance::format_differences(differences, quick.rows);
+    CHECK_THAT(text, Catch::Matchers::ContainsSubstring("same bits as the host build: no"));
+    CHECK_THAT(text, Catch::Matchers::ContainsSubstring(name + " differs in "));
+}
+
+// Runs under Oclgrind as well (oclgrind.sh), which sees every access to memory.
+TEST_CASE("items beyond the last whole group have the host build's bits", "[tail]") {
+    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
+                                    runtime::Real::f32);
+    const std::size_t items = 130;  // two groups of 64, and 2
+    for (const auto& d : conformance::compare_with_host(device, conformance::select(""), bits_of(items))) {
+        CAPTURE(d.function->name, d.ulps, d.worst);
+        CHECK(d.differing == 0);
+    }
+    std::vector<float> u1(items), u2(items);
+    device.uniforms(1, 0, items, u1.data(), u2.data());
+    CHECK(u1.back() != u2.back());
+}
+
+// Only for oclgrind.sh: what it must see.
+TEST_CASE("a kernel with an invalid access and a data race", "[.planted]") {
+    runtime::ProgramOptions program;
+    program.functions = {"vndf_reflect"};
+    program.more_source =
+        "__kernel void planted(__global float *a) { a[get_global_id(0) + 1] = a[0]; a[1] = get_global_id(0); "
+        "}";
+    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
+                                    runtime::Real::f32, program);
+    cl::Kernel kernel(device.program(), "planted");
+    const cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, std::size_t{4 * 64});
+    kernel.setArg(0, buffer);
+    const cl::CommandQueue queue(device.context(), device.device().handle);
+    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(64), cl::NDRange(64));
+    queue.finish();
+}
+
+TEST_CASE("a device that flushes subnormal numbers is excused for them alone") {
+    // The host build stands for a device that flushes: exempt rows take its results, whatever the device returns.
+    conformance::BitsOptions options = quick;
+    runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);
+    const std::vector<const Function*> selected{find_function("vndf_beckmann_ndf")};
+    const auto strict = conformance::digests(host, selected, options);
+    options.flushes = true;
+    const auto flushing = conformance::digests(host, selected, options);
+    CHECK(strict[0].hash == flushing[0].hash);
+    CHECK(flushing[0].exempt > 0);
+    CHECK(flushing[0].exempt < options.rows / 2);
+}
+
+}  // namespace vndf

@@ -1,0 +1,37 @@
+#!/bin/sh
+# Mesa's rusticl on llvmpipe keeps the bits: a compiler of its own (SPIR-V, NIR), no fma, and subnormal numbers flushed.
+#
+#   rusticl.sh [--quick] PROJECT BUILD [FUNCTION...]
+#
+# A program for each function: one with all of them takes its compiler a quarter of an hour. Default: all functions.
+# --quick: 2^12 inputs a function instead of 2^20. Exit status: 0 the same bits, 1 not, 77 without rusticl.
+set -u
+quick=
+digests=digests.txt
+if [ "${1-}" = --quick ]; then
+    quick=--quick
+    digests=digests_quick.txt
+    shift
+fi
+project=$1 clvndf=$2/clvndf
+shift 2
+export RUSTICL_ENABLE=llvmpipe
+"$clvndf" devices | grep -q '^rusticl' || { echo "rusticl (mesa-opencl-icd, libclc-15) is not installed"; exit 77; }
+
+committed=$project/tests/data/$digests
+# A sampler's name stands for its form _with_pdf as well.
+[ $# -gt 0 ] || set -- $(cut -d' ' -f1 "$committed" | grep -v _with_pdf)
+status=0 done=' '
+for function in "$@"; do
+    # --only takes parts of names: some functions are done already.
+    case $done in *" $function "*) continue ;; esac
+    got=$("$clvndf" check --digest $quick --device rusticl --only "$function") || exit 1
+    done="$done$(echo "$got" | cut -d' ' -f1 | tr '\n' ' ')"
+    if other=$(echo "$got" | grep -vxFf "$committed"); then
+        echo "$other: NOT the same bits"
+        status=1
+    else
+        echo "$function: same bits"
+    fi
+done
+exit $status

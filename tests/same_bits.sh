@@ -1,0 +1,63 @@
+#!/bin/sh
+# The host build has the same bits with every compiler and every level of optimisation: it is compiled with g++ and
+# clang++ at -O0 to -O3, each with and without -march=native, inputs and hashes included, and its digests are compared
+# with those of tests/data.
+#
+#   same_bits.sh [--quick] PROJECT BUILD WORK [COMPILER -OPTION...]...
+#
+# PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is compiled here. Each further argument is
+# one compiler with its options ("clang++ -O3"); default: all 16. --quick: 2^12 inputs a function instead of 2^20.
+# Exit status: 0 the same bits, 1 not, 77 no compiler to try.
+set -u
+
+quick=
+digests=digests.txt
+if [ "${1-}" = --quick ]; then
+    quick=--quick
+    digests=digests_quick.txt
+    shift
+fi
+project=$1 build=$2 work=$3
+shift 3
+mkdir -p "$work" || exit 1
+
+[ $# -gt 0 ] || set -- \
+    "g++ -O0" "g++ -O1" "g++ -O2" "g++ -O3" \
+    "g++ -O0 -march=native" "g++ -O1 -march=native" "g++ -O2 -march=native" "g++ -O3 -march=native" \
+    "clang++ -O0" "clang++ -O1" "clang++ -O2" "clang++ -O3" \
+    "clang++ -O0 -march=native" "clang++ -O1 -march=native" "clang++ -O2 -march=native" "clang++ -O3 -march=native"
+
+# What the bits depend on; the rest comes from the libraries of BUILD.
+sources="host/runtime/host_build.cpp host/conformance/digest.cpp host/conformance/points.cpp host/conformance/grids.cpp
+    tests/support/digest_host.cpp"
+
+# digests_of COMPILER OPTION...: the digests of this build, on stdout.
+digests_of() {
+    objects=
+    for source in $sources; do
+        object=$work/$(basename "$source" .cpp).o
+        "$@" -std=c++20 -ffp-contract=off -DVNDF_REAL=float -DVNDF_MATH=strict -I"$project" -I"$project/host" \
+            -c "$project/$source" -o "$object" || return 1
+        objects="$objects $object"
+    done
+    "$@" $objects "$build/host/libclvndf_host.a" "$build/host/reference/libclvndf_reference.a" -lfmt -lOpenCL -pthread \
+        -o "$work/digest_host" || return 1
+    "$work/digest_host" $quick
+}
+
+tried=0 status=0
+for build_with in "$@"; do
+    if ! command -v ${build_with%% *} >/dev/null; then
+        echo "$build_with: no such compiler"
+        continue
+    fi
+    tried=$((tried + 1))
+    if digests_of $build_with >"$work/digests.txt" && diff "$project/tests/data/$digests" "$work/digests.txt"; then
+        echo "$build_with: same bits"
+    else
+        echo "$build_with: NOT the same bits"
+        status=1
+    fi
+done
+[ $tried -gt 0 ] || exit 77
+exit $status
