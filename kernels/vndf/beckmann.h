@@ -104,8 +104,13 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL sum = VNDF_R(1.0) + vndf_beckmann_lambda(wo, alpha) + vndf_beckmann_lambda(wi, alpha);
-    return wo.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0) ? VNDF_R(1.0) / sum : VNDF_R(0.0);
+    // wo.z (1 + Lambda(wo)) = sigma(wo), positive for every wo that counts: wi's terms wait for it, since side by side
+    // the two would be packed (frame.h).
+    VNDF_REAL sigma = vndf_beckmann_sigma(wo, alpha);
+    VNDF_REAL2 alpha_i =
+        VNDF_MAKE2(sigma > VNDF_R(0.0) ? alpha.x : VNDF_R(1.0), sigma > VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
+    VNDF_REAL sum = VNDF_FMA(wo.z, vndf_beckmann_lambda(wi, alpha_i), sigma);
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? wo.z / sum : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).

@@ -110,9 +110,10 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_
     VNDF_REAL a = vndf_impl_alpha(alpha);
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
-    VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(n, wm)), VNDF_R(0.0), wm_z, a, a);
-    VNDF_REAL pdf = (VNDF_2_PI / ((q * a) * (q * a))) * (cos_om / twice_sigma);
-    int visible = vndf_impl_min(wm_z, cos_om) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
+    VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(wm, n)), VNDF_R(0.0), wm_z, a, a);
+    VNDF_REAL pdf = (VNDF_2_PI / ((q * a) * (q * a))) * cos_om / twice_sigma;
+    // pdf has the sign of wo . wm.
+    int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
