@@ -1,6 +1,6 @@
 #include "kernels.h"
 
-#include <array>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -70,6 +70,34 @@ std::string copy_source(Copy copy, std::size_t reads, std::size_t writes, runtim
         "    const size_t i = get_global_id(0);\n"
         "{}}}\n",
         parameters, body);
+}
+
+std::string arithmetic_source() {
+    std::string set, step, sum;
+    for (int i = 0; i < 8; ++i) {
+        set += fmt::format("    float8 a{} = (float8)(0.{}f + x);\n", i, i + 1);
+        step += fmt::format(" a{0} = fma(a{0}, m, m);", i);
+        sum += fmt::format("{}a{}", i ? " + " : "", i);
+    }
+    return fmt::format(
+        "\n#line 1 \"arithmetic\"\n"
+        "__kernel void vndf_arithmetic(__global float *out, const float x) {{\n"
+        "{}    const float8 m = (float8)(x);\n"
+        "    for (int k = 0; k < 4096; ++k) {{{} }}\n"
+        "    const float8 sum = {};\n"
+        "    out[get_global_id(0)] = sum.s0 + sum.s1 + sum.s2 + sum.s3 + sum.s4 + sum.s5 + sum.s6 + sum.s7;\n"
+        "}}\n",
+        set, step, sum);
+}
+
+double operations(const Function& function) {
+    static const std::map<std::string, double> counts = {
+#define VNDF_OPERATIONS(name, count) {#name, count},
+#include "operations.def"
+#undef VNDF_OPERATIONS
+    };
+    const auto found = counts.find(function.name);
+    return found == counts.end() ? 0 : found->second;
 }
 
 }  // namespace vndf::bench

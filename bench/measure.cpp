@@ -87,11 +87,26 @@ void set_name(Run& run) {
     run.run_name.time_type.clear();
 }
 
+// Google Benchmark's JSON with one more member, which its tools pass over.
+std::string with_lobes(const std::string& json, const std::vector<LobeNoise>& lobes) {
+    auto data = nlohmann::ordered_json::parse(json);
+    data["lobes"] = nlohmann::ordered_json::array();
+    for (const LobeNoise& l : lobes)
+        data["lobes"].push_back({{"sampler", l.sampler},
+                                 {"alpha_x", l.alpha_x},
+                                 {"alpha_y", l.alpha_y},
+                                 {"cos_theta", l.cos_theta},
+                                 {"rejected", l.rejected},
+                                 {"mean", l.mean},
+                                 {"variance", l.variance}});
+    return data.dump(1) + "\n";
+}
+
 }  // namespace
 
 Measurement measure(const std::vector<Entry>& entries, int repetitions,
                     const std::vector<std::pair<std::string, std::string>>& context,
-                    const std::function<void(double done)>& progress) {
+                    const std::vector<LobeNoise>& lobes, const std::function<void(double done)>& progress) {
     std::vector<std::string> arguments = {"clvndf", "--benchmark_enable_random_interleaving=true"};
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -129,6 +144,8 @@ Measurement measure(const std::vector<Entry>& entries, int repetitions,
         result.counters["ns_per_useful_sample"] = result.best_ns / entry.useful;
         if (const auto fraction = ratio(entry.copy, entry.name))
             result.counters["fraction_of_copy"] = *fraction;
+        if (const auto peak = ratio(entry.arithmetic, entry.name))
+            result.counters["fraction_of_arithmetic"] = *peak * entry.figures.at("operations");
         if (const auto speedup = ratio(entry.published, entry.name))
             result.counters["speedup_over_published"] = *speedup;
     }
@@ -141,7 +158,7 @@ Measurement measure(const std::vector<Entry>& entries, int repetitions,
             if (!name.starts_with("ns_per")) run.counters[name] = value;
         run.counters["samples"] = entry.samples;
     }
-    measurement.json = collector.json();
+    measurement.json = with_lobes(collector.json(), lobes);
     return measurement;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "session.h"
+#include "variance.h"
 
 namespace vndf::bench {
 
@@ -24,11 +25,11 @@ struct Measurement {
     std::string json;             // Google Benchmark's form
 };
 
-// `context` goes to the JSON as it is. Entries whose names stand in another's `copy` or `published` are measured
+// `context` and `lobes` go to the JSON as they are. Entries whose names stand in another's `copy` or `published` are measured
 // in the same run, and every entry carries the ratio to them.
 Measurement measure(const std::vector<Entry>& entries, int repetitions,
                     const std::vector<std::pair<std::string, std::string>>& context,
-                    const std::function<void(double done)>& progress);
+                    const std::vector<LobeNoise>& lobes, const std::function<void(double done)>& progress);
 
 // Results by name out of such a JSON text. Throws InputError, naming `path`.
 std::vector<Result> read_results(const std::string& json, const std::string& path);

@@ -218,6 +218,33 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
     return name;
 }
 
+// The device's arithmetic rate: its samples are operations. Registers it once.
+std::string Session::arithmetic_entry() {
+    const std::string name = "fma/compute";
+    const auto same = [&](const Entry& e) { return e.name == name; };
+    if (std::any_of(entries_.begin(), entries_.end(), same)) return name;
+    runtime::ProgramOptions options;
+    options.root = "kernels/vndf/config.h";
+    options.functions = {"vndf_reflect"};
+    options.more_source = arithmetic_source();
+    options.context = context_;
+    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, Real::f32, options));
+    cl::Kernel kernel(evaluators_.back()->program(), "vndf_arithmetic");
+    kernel.setArg(0, output(0));
+    kernel.setArg(1, 0.5f);
+    std::size_t items = local_size * device_.compute_units;
+    launch(kernel, items);
+    while (launch(kernel, items).wall_s < compute_launch_s && items < column_bytes / sizeof(float))
+        items *= 2;
+    Entry entry;
+    entry.name = name;
+    entry.samples = static_cast<double>(items * arithmetic_operations);
+    entry.launch = [this, kernel, items] { return launch(kernel, items); };
+    entry.label = "a sample is one operation; an fma is two";
+    entries_.push_back(std::move(entry));
+    return name;
+}
+
 // Errors on the very inputs that are timed, and the part of a sampler's directions that are reflections above the
 // surface.
 void Session::add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator) {
@@ -247,7 +274,8 @@ void Session::add_accuracy(Entry& entry, const Function& function, runtime::Eval
 }
 
 void Session::add_program(const Function& function, Math math, Real real, const std::string& policy,
-                          const std::string& root, const std::string& callee) {
+                          const std::string& root, const std::string& callee,
+                          const std::vector<runtime::Substitution>& substitutions) {
     translated(device_, function.name, [&] {
         const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), real);
         runtime::ProgramOptions options;
@@ -255,11 +283,13 @@ void Session::add_program(const Function& function, Math math, Real real, const 
         options.root = root;
         options.more_source = compute_source(function, callee);
         options.context = context_;
+        options.substitutions = substitutions;
+        options.mutant = substitutions.empty() ? 0 : 1;
         for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
         const double cold_s = build(function, math, real, options);
         const double warm_s = build(function, math, real, options);  // from the driver's cache
         DeviceEvaluator& evaluator = *evaluators_.back();
-        build_options_ = evaluator.build_options();
+        if (build_options_.empty()) build_options_ = evaluator.build_options();
         Entry stream = stream_entry(function, evaluator);
         Entry compute = compute_entry(function, evaluator);
         add_accuracy(stream, function, evaluator);
@@ -271,6 +301,10 @@ void Session::add_program(const Function& function, Math math, Real real, const 
         stream.name = name + "/stream";
         stream.copy = copy;
         compute.name = name + "/compute";
+        if (policy == "strict" && real == Real::f32 && operations(function) > 0) {
+            compute.figures["operations"] = operations(function);
+            compute.arithmetic = arithmetic_entry();
+        }
         if (is_published(function) && real == Real::f32) {
             stream.published = function.name + "/published/float/stream";
             compute.published = function.name + "/published/float/compute";
@@ -282,6 +316,24 @@ void Session::add_program(const Function& function, Math math, Real real, const 
 
 void Session::add(const Function& function, Math math, Real real) {
     add_program(function, math, real, std::string(to_string(math)), "kernels/batch/batch.cl", function.name);
+}
+
+void Session::add_steps(const Function& function) {
+    if (function.name != "vndf_beckmann_sample_wm_jakob2014") return;
+    // Every form but the last keeps the last step, which alone is taken with the accurate residual.
+    const std::string file = "kernels/vndf/beckmann_slopes.h",
+                      first = "VNDF_REAL offset = VNDF_IMPL_STEP(start, 0)",
+                      second = "offset = VNDF_IMPL_STEP(offset, 0)",
+                      last = "return VNDF_IMPL_STEP(offset, 1)", none = "VNDF_REAL offset = start";
+    const std::vector<std::vector<runtime::Substitution>> forms = {
+        {{file, first, none, 1}, {file, second, "", 1}, {file, last, "return offset", 1}},
+        {{file, first, none, 1}, {file, second, "", 1}},
+        {{file, first, none, 1}},
+        {{file, second, second, 1}},
+        {{file, second, second + "; " + second, 1}}};
+    for (std::size_t steps = 0; steps < forms.size(); ++steps)
+        add_program(function, Math::strict, Real::f32, fmt::format("steps{}", steps),
+                    "kernels/batch/batch.cl", function.name, forms[steps]);
 }
 
 void Session::add_published(const Function& function) {

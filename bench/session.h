@@ -18,7 +18,7 @@ struct Timing {
     double event_s;  // as the driver says; 0 if it says nothing
 };
 
-// One line of the benchmark: FUNCTION/POLICY/REAL/stream, .../compute, or copy_40B/stream.
+// One line of the benchmark: FUNCTION/POLICY/REAL/stream, .../compute, copy_40B/stream or fma/compute.
 struct Entry {
     std::string name;
     double samples = 0;  // of one launch
@@ -26,6 +26,7 @@ struct Entry {
     std::map<std::string, double> figures;  // counters that do not depend on time: err_p50, ...
     double useful = 1;                      // the part of the samples that are not rejected
     std::string copy, published;            // names of the entries to compare with; empty: none
+    std::string arithmetic;                 // name of the entry whose samples are operations; empty: none
     std::string label;
 };
 
@@ -34,18 +35,21 @@ class Session {
     explicit Session(const runtime::Device& device);
 
     void add(const Function& function, runtime::Math math, runtime::Real real);
+    // The function with other numbers of iterations, as policies steps1, steps2 ..., if it has a fixed number of them.
+    void add_steps(const Function& function);
     // The listing of the function's paper, if it is one of those at hand.
     void add_published(const Function& function);
     // The same header as C++, on every thread of the host.
     void add_cpp(const Function& function);
 
     std::vector<Entry>& entries() { return entries_; }
-    // The build options of everything built: policy and type apart, they are the same.
+    // The build options of what was built first: policy and type apart, they are the same for all.
     const std::string& build_options() const { return build_options_; }
 
   private:
     void add_program(const Function& function, runtime::Math math, runtime::Real real,
-                     const std::string& policy, const std::string& root, const std::string& callee);
+                     const std::string& policy, const std::string& root, const std::string& callee,
+                     const std::vector<runtime::Substitution>& substitutions = {});
     cl::Kernel stream_kernel(const Function& function, runtime::DeviceEvaluator& evaluator,
                              std::size_t items);
     double build(const Function& function, runtime::Math math, runtime::Real real,
@@ -53,6 +57,7 @@ class Session {
     Entry stream_entry(const Function& function, runtime::DeviceEvaluator& evaluator);
     Entry compute_entry(const Function& function, runtime::DeviceEvaluator& evaluator);
     std::string copy_entry(std::size_t reads, std::size_t writes, runtime::Real real);
+    std::string arithmetic_entry();
     void add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator);
 
     const conformance::Table& table(const Function& function, runtime::Real real);

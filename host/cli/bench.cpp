@@ -98,6 +98,7 @@ void add_entries(bench::Session& session, const runtime::Device& device, const F
                 session.add(function, math, real);
         }
     }
+    if (wanted("steps/float")) session.add_steps(function);
     session.add_published(function);
     if (wanted("cpp/float")) session.add_cpp(function);
 }
@@ -184,9 +185,9 @@ void run_bench(const Bench& options, Common& common) {
         show(shown, fmt::format("building {} of {}: {}", i + 1, selected.size(), selected[i]->name));
         add_entries(session, device, *selected[i], forms);
     }
-    const bench::Measurement measurement =
-        bench::measure(session.entries(), options.repetitions, context(device, session, options),
-                       [&](double done) { show(shown, fmt::format("{:3.0f}%  measuring", 100 * done)); });
+    const bench::Measurement measurement = bench::measure(
+        session.entries(), options.repetitions, context(device, session, options), bench::lobe_noise(),
+        [&](double done) { show(shown, fmt::format("{:3.0f}%  measuring", 100 * done)); });
     show(shown, "");
     if (json) json->write(measurement.json), json->commit();
     if (options.json != "-") print_table(measurement.results, baseline);
