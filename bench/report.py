@@ -43,7 +43,9 @@ class Bench:
         self.median = {b["run_name"]: b for b in data["benchmarks"] if b.get("aggregate_name") == "median"}
         self.spread = {b["run_name"]: b["ns_per_sample"] for b in data["benchmarks"]
                        if b.get("aggregate_name") == "cv"}
-        self.functions = list(dict.fromkeys(n.split("/")[0] for n in self.best if not n.startswith("copy_")))
+        self.lobes = data.get("lobes", [])
+        functions = {n.split("/")[0] for n in self.best if n.startswith("vndf_")}
+        self.functions = sorted(functions, key=lambda f: (not f.startswith("vndf_ggx"), "_sample_" not in f, f))
 
     def ns(self, function, policy, mode="stream"):
         entry = self.best.get(f"{function}/{policy}/{mode}")
@@ -97,40 +99,50 @@ def pareto(points):
     return front
 
 
-def accuracy_against_time(benches):
-    figure, axes = plt.subplots(len(benches), 2, figsize=(11, 4.6 * len(benches)), squeeze=False)
-    for row, bench in zip(axes, benches):
-        for axis, ndf in zip(row, ("ggx", "beckmann")):
-            samplers = [s for s in bench.samplers() if s.startswith(f"vndf_{ndf}")]
-            colours = plt.cm.tab10.colors
-            points, used = [], set()
-            for sampler, colour in zip(samplers, colours):
-                for key, (_, _, marker) in POLICIES.items():
-                    name = f"{sampler}/{key}/stream"
-                    error = bench.counter(name, "err_p99")
-                    if error is None or not math.isfinite(error) or key == "cpp/float":
-                        continue
-                    error = max(error, 1e-3) * (DOUBLE_UNIT if key.endswith("double") else 1)
-                    point = bench.best[name]["ns_per_sample"], error
-                    points.append(point)
-                    used.add(key)
-                    axis.plot(*point, marker, color=colour, markersize=6, markeredgecolor="white", markeredgewidth=0.5)
-                axis.plot([], [], "o", color=colour, label=short(sampler).removeprefix(ndf + " "))
-            for key in POLICIES:
-                if key in used:
-                    axis.plot([], [], POLICIES[key][2], color="black", label=POLICIES[key][0])
-            front = pareto(points)
-            axis.step([x for x, _ in front], [y for _, y in front], where="post", color="black", linewidth=0.8,
-                      linestyle="--", label="Pareto front")
-            if not points:
-                axis.axis("off")
+def accuracy_panel(axis, bench, ndf, real):
+    points, used = [], []
+    for sampler, colour in zip([s for s in bench.samplers() if s.startswith(f"vndf_{ndf}")], plt.cm.tab10.colors):
+        for key in (k for k in POLICIES if k.endswith(real) and k != "cpp/float"):
+            name = f"{sampler}/{key}/stream"
+            error = bench.counter(name, "err_p99")
+            if error is None or not math.isfinite(error):
                 continue
-            axis.set_xscale("log")
-            axis.set_yscale("log")
-            axis.set_xlabel("ns a sample, streaming")
-            axis.set_ylabel("99th percentile of the error,\n$2^{-24}$ (1 + condition number)")
-            axis.set_title(f"{ndf.upper() if ndf == 'ggx' else 'Beckmann'}: {bench.device}", fontsize=9)
-            axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+            points.append((bench.best[name]["ns_per_sample"], error))
+            used.append(key)
+            axis.plot(*points[-1], POLICIES[key][2], color=colour, markersize=7, markeredgecolor="white",
+                      markeredgewidth=0.5)
+        axis.plot([], [], "o", color=colour, label=short(sampler).removeprefix(ndf + " "))
+    if not points:
+        axis.axis("off")
+        return
+    for key in POLICIES:
+        if key in used:
+            axis.plot([], [], POLICIES[key][2], color="black", label=POLICIES[key][0])
+    front = pareto(points)
+    axis.margins(0.12)
+    axis.step([x for x, _ in front], [y for _, y in front], where="post", color="black", linewidth=0.8,
+              linestyle="--", label="Pareto front (ringed)")
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    for x, y in front:
+        axis.plot(x, y, "o", color="none", markeredgecolor="black", markersize=12, markeredgewidth=0.8)
+    for side in (axis.xaxis, axis.yaxis):
+        side.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+        side.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: f"{x:g}"))
+        side.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    axis.set_xlabel("ns a sample, streaming")
+    unit = "-24" if real == "float" else "-53"
+    axis.set_ylabel(f"99th percentile of the error,\n$2^{{{unit}}}$ (1 + condition number)")
+    axis.set_title(f"{'GGX' if ndf == 'ggx' else 'Beckmann'}, {real}: {bench.device}", fontsize=8)
+    axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+
+
+def accuracy_against_time(benches):
+    figure, axes = plt.subplots(2 * len(benches), 2, figsize=(11, 7.6 * len(benches)), squeeze=False)
+    for i, bench in enumerate(benches):
+        for k, real in enumerate(("float", "double")):
+            for axis, ndf in zip(axes[2 * i + k], ("ggx", "beckmann")):
+                accuracy_panel(axis, bench, ndf, real)
     return figure
 
 
@@ -158,16 +170,19 @@ def speed_up(benches):
     return figure
 
 
-def fraction_of_copy(benches):
+def achieved(benches):
     names = list(dict.fromkeys(f for b in benches for f in b.functions if not f.endswith("_with_pdf")))
-    figure, axes = plt.subplots(1, len(benches), figsize=(11, 0.19 * len(names) + 1.2), squeeze=False, sharey=True)
-    for axis, bench in zip(axes[0], benches):
-        values = [bench.counter(f"{n}/strict/float/stream", "fraction_of_copy") for n in names]
-        bars(axis, [short(n) for n in names], [("strict float", "#1f77b4", values)])
-        axis.axvline(1, color="black", linewidth=0.8)
-        axis.set_xlabel("part of the bandwidth that the fastest copy of as many bytes reaches")
-        axis.set_title(bench.device, fontsize=9)
-        axis.tick_params(axis="y", labelsize=7)
+    kinds = (("stream", "fraction_of_copy", "of the fastest copy of as many bytes", "#1f77b4"),
+             ("stream", "fraction_of_arithmetic", "of the arithmetic rate", "#9467bd"))
+    figure, axes = plt.subplots(1, 2 * len(benches), figsize=(11, 0.19 * len(names) + 1.2), squeeze=False, sharey=True)
+    for i, bench in enumerate(benches):
+        for axis, (mode, counter, label, colour) in zip(axes[0][2 * i:], kinds):
+            values = [bench.counter(f"{n}/strict/float/{mode}", counter) for n in names]
+            bars(axis, [short(n) for n in names], [("strict float", colour, values)])
+            axis.axvline(1, color="black", linewidth=0.8)
+            axis.set_xlabel(label)
+            axis.set_title(bench.device, fontsize=7)
+            axis.tick_params(axis="y", labelsize=7)
     return figure
 
 
@@ -189,6 +204,70 @@ def cost_of_accuracy(benches):
             axis.set_xlabel(f"ratio of times, {kind}")
             axis.set_title(bench.device, fontsize=8)
             axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.12), frameon=False)
+    return figure
+
+
+def iterations(benches):
+    figure, axes = plt.subplots(1, 2 * len(benches), figsize=(11, 3.4), squeeze=False)
+    sampler = "vndf_beckmann_sample_wm_jakob2014"
+    for i, bench in enumerate(benches):
+        steps = [k for k in range(10) if f"{sampler}/steps{k}/float/stream" in bench.best]
+        left, right = axes[0][2 * i:2 * i + 2]
+        for mode, label, colour in (("stream", "streaming", "#1f77b4"), ("compute", "compute-bound", "#aec7e8")):
+            left.plot(steps, [bench.ns(sampler, f"steps{k}/float", mode) for k in steps], "o-", label=label, color=colour)
+        for counter, label, colour in (("err_p50", "median", "#ffbb78"), ("err_p99", "99th percentile", "#ff7f0e"),
+                                       ("err_max", "maximum", "#d62728")):
+            # A median of 0 is an exact start: it has no place on a logarithmic axis.
+            right.plot(steps, [bench.counter(f"{sampler}/steps{k}/float/stream", counter) or None for k in steps], "o-",
+                       label=label, color=colour)
+        left.set_ylim(bottom=0)
+        left.set_ylabel("ns a sample")
+        right.set_yscale("log")
+        right.set_ylabel("$2^{-24}$ (1 + condition number)")
+        for axis in (left, right):
+            axis.set_xticks(steps)
+            axis.set_xlabel("steps (3 are taken)")
+            axis.set_title(bench.device, fontsize=7)
+            axis.legend(fontsize=7, frameon=False)
+    return figure
+
+
+NOISE = (("vndf_ggx_sample_wm_walter2007", "plain NDF", "#7f7f7f"), ("vndf_ggx_sample_wm_dupuy2023", "cap", "#1f77b4"),
+         ("vndf_ggx_sample_wi_eto2023", "bounded cap", "#ff7f0e"),
+         ("vndf_ggx_sample_wi_eto2023_polygon", "polygon bound", "#2ca02c"),
+         ("vndf_ggx_sample_wi_conic2026", "conic", "#d62728"))
+
+
+def lobe_figures(benches):
+    """Rejection, variance and variance times time; the lobes do not depend on the device, times do."""
+    bench = benches[0]
+    cosines = sorted({lobe["cos_theta"] for lobe in bench.lobes}, reverse=True)
+    rows = (("rejected", "rejected samples"), ("variance", "variance of one sample"),
+            ("cost", "variance times ns a sample"))
+    figure, axes = plt.subplots(3, max(1, len(cosines)), figsize=(11, 9), squeeze=False, sharex=True, sharey="row")
+    for column, cosine in enumerate(cosines):
+        here = [lobe for lobe in bench.lobes if lobe["cos_theta"] == cosine]
+        labels = list(dict.fromkeys(f"{lobe['alpha_x']:g}, {lobe['alpha_y']:g}" for lobe in here))
+        for axis, (value, label) in zip(axes[:, column], rows):
+            for sampler, name, colour in NOISE:
+                lobes = [lobe for lobe in here if lobe["sampler"] == sampler]
+                ns = bench.ns(sampler, "strict/float", "compute")
+                if not lobes or (value == "cost" and not ns):
+                    continue
+                shown = [lobe["variance"] * ns if value == "cost" else lobe[value] for lobe in lobes]
+                # No line from the isotropic lobes to the others.
+                split = sum(lobe["alpha_x"] == lobe["alpha_y"] for lobe in lobes)
+                axis.plot(range(split), shown[:split], "o-", label=name, color=colour, markersize=4, linewidth=1)
+                axis.plot(range(split, len(shown)), shown[split:], "o-", color=colour, markersize=4, linewidth=1)
+            if value != "rejected":
+                axis.set_yscale("log")
+            axis.set_title(f"cos(theta_o) = {cosine:.1f}", fontsize=8)
+            axis.set_xticks(range(len(labels)), labels, rotation=60, fontsize=7)
+            if column == 0:
+                axis.set_ylabel(label)
+        axes[2][column].set_xlabel("alpha_x, alpha_y")
+    if cosines:
+        axes[0][0].legend(fontsize=7, frameon=False)
     return figure
 
 
@@ -237,6 +316,50 @@ def headline_rows(bench):
     ]
 
 
+def target_rows(bench):
+    """What the project wants of itself on two cores of a CPU: (target, wanted, measured, met)."""
+    def rows(label, names, wanted, value, at_least):
+        for name in names:
+            got = value(name)
+            if got is not None:
+                met = got >= wanted if at_least else got <= wanted
+                yield (label, short(name), f"{'>=' if at_least else '<='} {wanted:g}", f"{got:.2f}", "yes" if met else "no")
+
+    def speedup(mode):
+        return lambda n: bench.counter(f"{n}/strict/float/{mode}", "speedup_over_published")
+
+    def times_cap(name):
+        ours, cap = bench.ns(name, "strict/float"), bench.ns(CAP, "strict/float")
+        return ours / cap if ours and cap else None
+
+    def copy(name):
+        return bench.counter(f"{name}/strict/float/stream", "fraction_of_copy")
+
+    def over_builtin(name):
+        strict, builtin = bench.ns(name, "strict/float"), bench.ns(name, "builtin/float")
+        return strict / builtin if strict and builtin else None
+
+    fast = [CAP, BOUNDED, WORLD]
+    published = [s for s in bench.samplers() if bench.counter(f"{s}/strict/float/stream", "speedup_over_published")]
+    slow = [s for s in published if s not in fast]
+    values = [f for f in bench.functions if "_sample_" not in f]
+    yield from rows("times the published listing, streaming", fast, 20, speedup("stream"), True)
+    yield from rows("times the published listing, streaming", slow, 15, speedup("stream"), True)
+    yield from rows("times the published listing, compute-bound", [CAP], 35, speedup("compute"), True)
+    yield from rows("times the published listing, compute-bound", [s for s in published if s != CAP], 20,
+                    speedup("compute"), True)
+    yield from rows("time of our cap, streaming", [CROSS], 1.8, times_cap, False)
+    yield from rows("time of our cap, streaming", ["vndf_ggx_sample_wm_heitz_deon2014_exact"], 2.2, times_cap, False)
+    yield from rows("time of our cap, streaming", ["vndf_beckmann_sample_wm_heitz_deon2014"], 7, times_cap, False)
+    yield from rows("time of our cap, streaming", ["vndf_beckmann_sample_wm_jakob2014"], 16, times_cap, False)
+    yield from rows("part of the copy's speed", [CAP], 0.65, copy, True)
+    yield from rows("part of the copy's speed", [v for v in values if v.startswith("vndf_ggx")], 0.8, copy, True)
+    yield from rows("part of the copy's speed", [v for v in values if v.startswith("vndf_beckmann")], 0.4, copy, True)
+    worst = max((f for f in bench.functions if over_builtin(f)), key=over_builtin, default=None)
+    if worst:
+        yield from rows("strict over builtin, streaming: the worst function", [worst], 1.1, over_builtin, False)
+
+
 def table(head, rows):
     cells = "".join(f"<th>{html.escape(h)}</th>" for h in head)
     body = "".join("<tr>" + "".join(f"<td>{html.escape(str(c))}</td>" for c in row) + "</tr>" for row in rows)
@@ -263,11 +386,19 @@ PLOTS = (
     ("Speed-up over the published listings", speed_up,
      "The listings ported line by line, as one would paste them, with their errata corrected; same device, same run, "
      "same harness."),
-    ("Bandwidth", fraction_of_copy,
-     "Inputs and outputs stream through memory as separate arrays. 1 is the fastest of three copy kernels that read and "
-     "write as many arrays."),
+    ("Bandwidth and arithmetic", achieved,
+     "Inputs and outputs stream through memory as separate arrays. Left, 1 is the fastest of three copy kernels that read "
+     "and write as many arrays. Right, 1 is a kernel of nothing but fma on registers; an fma counts as two operations, a "
+     "division or a root as one, although it takes the time of many, and comparisons and selections as none."),
     ("What each step of accuracy costs", cost_of_accuracy,
      "Right of 1 the more accurate form takes longer; left of 1 it is the faster one as well."),
+    ("Iterations", iterations,
+     "The inversion of Jakob 2014 with other numbers of steps. The other inversion, the exact slopes of Heitz & d'Eon 2014, "
+     "has none: Kepler's equation is solved by two polynomials."),
+    ("Rejection and variance", lobe_figures,
+     "GGX without Fresnel under white light, azimuth 0.7. Samples whose reflection is below the surface are rejected and "
+     "count as 0. Variance times time (compute-bound, strict float) is the cost of equal noise where shading is free; with "
+     "dear shading only the variance counts."),
     ("Build time", build_times, "One function's program: cold with an empty compiler cache, warm from the cache."),
 )
 
@@ -292,6 +423,10 @@ def page(benches):
     for bench in benches:
         out.append(f"<h3>{html.escape(bench.device)}</h3>")
         out.append(table(["claim", "published", "measured here (faster: +)"], headline_rows(bench)))
+    out.append("<h2>Speed: what we aim at, and what was reached</h2>")
+    for bench in benches:
+        out.append(f"<h3>{html.escape(bench.device)}</h3>")
+        out.append(table(["target", "function", "wanted", "measured", "met"], target_rows(bench)))
     out.append("<h2>All entries</h2><p>ns a sample by the wall clock (best, median, spread as standard deviation over "
                "mean) and by the driver's event; errors in units of 2<sup>-24</sup> (double: 2<sup>-53</sup>) times "
                "1 + condition number.</p>")

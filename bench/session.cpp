@@ -302,8 +302,8 @@ void Session::add_program(const Function& function, Math math, Real real, const 
         stream.copy = copy;
         compute.name = name + "/compute";
         if (policy == "strict" && real == Real::f32 && operations(function) > 0) {
-            compute.figures["operations"] = operations(function);
-            compute.arithmetic = arithmetic_entry();
+            stream.figures["operations"] = operations(function);
+            stream.arithmetic = arithmetic_entry();
         }
         if (is_published(function) && real == Real::f32) {
             stream.published = function.name + "/published/float/stream";

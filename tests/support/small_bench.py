@@ -1,0 +1,34 @@
+"""A small benchmark JSON for tests out of whole ones: the aggregates of the functions that the report's plots need.
+
+    python3 tests/support/small_bench.py tests/data/bench.json BENCH.json...
+"""
+import json
+import sys
+
+FUNCTIONS = ("ggx_sample_wm_heitz_deon2014", "ggx_sample_wm_heitz2018", "ggx_sample_wm_dupuy2023",
+             "ggx_sample_wm_benyoub2024", "ggx_sample_wi_eto2023", "beckmann_sample_wm_heitz_deon2014",
+             "beckmann_sample_wm_jakob2014")
+
+
+def rounded(value):
+    return float(f"{value:.4g}") if isinstance(value, float) else value
+
+
+result = None
+for path in sys.argv[2:]:
+    with open(path, encoding="utf-8") as file:
+        data = json.load(file)
+    entries = [{k: rounded(v) for k, v in b.items()} for b in data["benchmarks"]
+               if b.get("aggregate_name") in ("best", "median", "cv")
+               and (b["run_name"].split("/")[0].removeprefix("vndf_") in FUNCTIONS
+                    or b["run_name"].startswith(("copy_40B/", "copy_48B/", "fma/")))]
+    if result is None:
+        result = data
+        result["context"] = {k: v for k, v in data["context"].items() if k not in ("host_name", "executable")}
+        result["benchmarks"] = []
+        result["lobes"] = [{k: rounded(v) for k, v in lobe.items()} for lobe in data["lobes"]]
+    known = {(b["run_name"], b["aggregate_name"]) for b in result["benchmarks"]}
+    result["benchmarks"] += [b for b in entries if (b["run_name"], b["aggregate_name"]) not in known]
+with open(sys.argv[1], "w", encoding="utf-8") as file:
+    json.dump(result, file, indent=0)
+    file.write("\n")
