@@ -3,6 +3,8 @@
 # there it only looks, needs no rights and takes no time.
 #
 #   sh host/setup.sh            install what is missing (as root, or through sudo)
+#   sh host/setup.sh --devices  that, and the devices and compilers that only some tests use and skip without: Oclgrind,
+#                               rusticl, clang
 #   sh host/setup.sh --list     print the package names and do nothing
 #
 # Exit status: 0 everything is there, 1 the installation failed, 2 unknown system or option, 3 no rights.
@@ -36,9 +38,10 @@ missing() {
 }
 
 case "$#,${1-}" in
-0,) ;;
+0,) devices= ;;
+1,--devices) devices=yes ;;
 1,--list) list && exit 0 ;;
-*) fail 2 "unknown arguments \"$*\": allowed are none and --list" ;;
+*) fail 2 "unknown arguments \"$*\": allowed are none, --devices and --list" ;;
 esac
 
 system=unknown
@@ -47,6 +50,12 @@ case "$system" in
 "debian 12" | "debian 13") ;;
 *) fail 2 "this script knows Debian 12 and 13, not \"${system% }\"; install by hand what your system calls" $packages ;;
 esac
+
+# rusticl's kernel library is that of the LLVM that Mesa was built with; Debian 13 has no Oclgrind.
+if [ -n "$devices" ]; then
+    packages="$packages clang mesa-opencl-icd"
+    [ "$system" = "debian 12" ] && packages="$packages libclc-15 oclgrind" || packages="$packages libclc-19"
+fi
 
 missing=$(missing)
 if [ -z "$missing" ]; then
