@@ -25,6 +25,11 @@ std::string all_options(const Device& device, Math math, Real real, const Progra
     return text;
 }
 
+// Kernels have an item for each element of their arrays, in whole groups.
+std::size_t padded(std::size_t items) {
+    return (items + local_size - 1) / local_size * local_size;
+}
+
 std::string indented(const std::string& text) {
     std::string out;
     for (char c : text) out += c == '\n' ? std::string("\n  ") : std::string(1, c);
@@ -37,22 +42,32 @@ DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, con
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
     require_real(device, real);
     const Assembly assembly{options.functions, options.substitutions};
-    const std::string source = assemble(options.root, assembly) +
-                               assemble("kernels/batch/uniforms.cl", assembly) + options.more_source;
     try {
         context_ = options.context() ? options.context : cl::Context(device.handle);
         queue_ = cl::CommandQueue(context_, device.handle);
-        program_ = cl::Program(context_, source);
-        program_.build({device.handle}, build_options_.c_str());
-    } catch (const cl::BuildError& error) {
-        std::string log;
-        for (const auto& [_, text] : error.getBuildLog()) log += text;
-        throw DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", options.root,
-                                      device.name, device.platform_version, opencl_error_name(error.err()),
-                                      build_options_, indented(log)));
     } catch (const cl::Error& error) {
         throw DeviceError(fmt::format("cannot use \"{}\" ({}): {} failed with {}", device.name,
                                       device.platform_version, error.what(), opencl_error_name(error.err())));
+    }
+    program_ = built(options.root, assemble(options.root, assembly) + options.more_source);
+}
+
+cl::Program DeviceEvaluator::built(const std::string& name, const std::string& source) const {
+    const auto failure = [&](cl_int error, const std::string& log) {
+        return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", name,
+                                       device_.name, device_.platform_version, opencl_error_name(error),
+                                       build_options_, indented(log)));
+    };
+    try {
+        cl::Program program(context_, source);
+        program.build({device_.handle}, build_options_.c_str());
+        return program;
+    } catch (const cl::BuildError& error) {
+        std::string log;
+        for (const auto& [_, text] : error.getBuildLog()) log += text;
+        throw failure(error.err(), log);
+    } catch (const cl::Error& error) {
+        throw failure(error.err(), fmt::format("{} failed", error.what()));
     }
 }
 
@@ -78,9 +93,9 @@ cl::Buffer& DeviceEvaluator::buffer(std::size_t index, std::size_t bytes) {
 
 void DeviceEvaluator::launch(cl::Kernel& kernel, std::size_t items) {
     const std::size_t allowed = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.handle);
-    const std::size_t local = std::min(local_size, allowed);
-    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + local - 1) / local * local),
-                                cl::NDRange(local));
+    std::size_t local = local_size;
+    while (local > allowed) local /= 2;
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(padded(items)), cl::NDRange(local));
 }
 
 template <class Body>
@@ -107,16 +122,20 @@ void DeviceEvaluator::run(const Function& function, std::size_t n, const std::ve
     const std::size_t size = size_of(real_);
     in_chunks(function.name, n, [&](cl::Kernel& kernel, std::size_t first, std::size_t items) {
         cl_uint argument = 0;
+        const std::size_t rest = padded(items) - items;
         for (const void* input : inputs) {
-            cl::Buffer& to = buffer(argument, items * size);
-            queue_.enqueueWriteBuffer(to, CL_FALSE, 0, items * size,
-                                      static_cast<const char*>(input) + first * size);
+            cl::Buffer& to = buffer(argument, padded(items) * size);
+            const char* from = static_cast<const char*>(input) + first * size;
+            queue_.enqueueWriteBuffer(to, CL_FALSE, 0, items * size, from);
+            // The last group is filled up with the chunk's first item, again and again.
+            for (std::size_t i = 0; i < rest; ++i)
+                queue_.enqueueWriteBuffer(to, CL_FALSE, (items + i) * size, size, from);
             kernel.setArg(argument++, to);
         }
         for (std::size_t i = 0; i < outputs.size(); ++i, ++argument) {
-            kernel.setArg(argument, buffer(argument, items * size));
+            kernel.setArg(argument, buffer(argument, padded(items) * size));
         }
-        kernel.setArg(argument, static_cast<cl_uint>(items));
+        kernel.setArg(argument, cl_uint{0});
         launch(kernel, items);
         for (std::size_t i = 0; i < outputs.size(); ++i)
             read_back(inputs.size() + i, outputs[i], first, items);
@@ -125,6 +144,11 @@ void DeviceEvaluator::run(const Function& function, std::size_t n, const std::ve
 
 void DeviceEvaluator::uniforms(std::uint64_t seed, std::uint64_t stream, std::size_t n, void* u1, void* u2) {
     const std::size_t size = size_of(real_);
+    // A program of its own: most evaluators never need it, and it takes time to build.
+    if (!kernels_.contains("vndf_batch_uniforms")) {
+        const std::string root = "kernels/batch/uniforms.cl";
+        kernels_["vndf_batch_uniforms"] = cl::Kernel(built(root, assemble(root)), "vndf_batch_uniforms");
+    }
     in_chunks("uniforms", n, [&](cl::Kernel& kernel, std::size_t first, std::size_t items) {
         kernel.setArg(0, buffer(0, items * size));
         kernel.setArg(1, buffer(1, items * size));

@@ -48,6 +48,7 @@ class DeviceEvaluator final : public Evaluator {
     const cl::Program& program() const { return program_; }
 
   private:
+    cl::Program built(const std::string& name, const std::string& source) const;
     cl::Kernel& kernel(const std::string& name);
     cl::Buffer& buffer(std::size_t index, std::size_t bytes);
     void launch(cl::Kernel& kernel, std::size_t items);

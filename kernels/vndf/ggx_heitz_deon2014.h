@@ -32,7 +32,8 @@ VNDF_FN struct vndf_impl_incidence vndf_impl_ggx_incidence(VNDF_REAL3 wo, VNDF_R
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_slope_normal(struct vndf_impl_incidence i, VNDF_REAL across,
                                                            VNDF_REAL scale, VNDF_REAL weight) {
     VNDF_REAL along = i.slope.sin_psi * scale;
-    VNDF_REAL hx = VNDF_FMA(across, i.ey, -along * i.ex), hy = VNDF_FMA(-across, i.ex, -along * i.ey);
+    // Products are negated, not `along`: g++ 12 makes one instruction of -fma(a, b, c), which turns -0 into 0.
+    VNDF_REAL hx = VNDF_FMA(across, i.ey, -(along * i.ex)), hy = VNDF_FMA(-across, i.ex, -(along * i.ey));
     return vndf_impl_ggx_unstretch(
         hx, hy, i.slope.cos_psi * scale, i.alpha_x, i.alpha_y,
         i.sqrt_p > VNDF_R(0.0) ? weight * i.slope.visible / i.sqrt_p : VNDF_R(0.0));
