@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -284,7 +285,7 @@ TEST_CASE("a failed build names device, options, file and line") {
     ProgramOptions broken;
     broken.functions = {"vndf_reflect"};
     broken.substitutions = {
-        {"kernels/batch/uniforms.cl", "const ulong index = first + i;", "const ulong index = alpa;", 7}};
+        {"kernels/vndf/ggx_walter2007.h", "VNDF_REAL u1 = ", "VNDF_REAL u1 = alpa + ", 7}};
     CHECK_NOTHROW(DeviceEvaluator(device(), Math::strict, Real::f32, broken));
     broken.mutant = 7;
     try {
@@ -295,12 +296,13 @@ TEST_CASE("a failed build names device, options, file and line") {
         CHECK_THAT(error.what(), ContainsSubstring(device().name));
         CHECK_THAT(error.what(), ContainsSubstring("-DVNDF_REAL=float -DVNDF_MATH=strict"));
         CHECK_THAT(error.what(), ContainsSubstring("CL_BUILD_PROGRAM_FAILURE"));
-        const std::string text = assemble("kernels/batch/uniforms.cl");
-        const std::size_t begin = text.rfind("\n#line ", text.find("const ulong index"));
-        const std::size_t line =
-            std::stoul(text.substr(begin + 7)) - 1 +
-            count(text.substr(begin + 1, text.find("const ulong index") - begin - 1), "\n");
-        CHECK_THAT(error.what(), ContainsSubstring("kernels/batch/uniforms.cl:" + std::to_string(line)));
+        const auto& files = embedded_sources();
+        const auto file = std::find_if(files.begin(), files.end(), [](const SourceFile& f) {
+            return f.path == "kernels/vndf/ggx_walter2007.h";
+        });
+        const std::string before(file->text.substr(0, file->text.find("VNDF_REAL u1 = ")));
+        const std::size_t line = 1 + count(before, "\n");
+        CHECK_THAT(error.what(), ContainsSubstring("kernels/vndf/ggx_walter2007.h:" + std::to_string(line)));
     }
 }
 
