@@ -117,13 +117,13 @@ Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
     return {wall_s, static_cast<double>(end - begin) * 1e-9};
 }
 
-cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator, std::size_t items) {
+cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator) {
     cl::Kernel kernel(evaluator.program(), ("vndf_batch_" + function.name).c_str());
     cl_uint argument = 0;
     for (std::size_t i = 0; i < function.inputs.size(); ++i)
         kernel.setArg(argument++, input(function, i, evaluator.input_real()));
     for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
-    kernel.setArg(argument, static_cast<cl_uint>(items));
+    kernel.setArg(argument, cl_uint{0});
     return kernel;
 }
 
@@ -134,16 +134,16 @@ double Session::build(const Function& function, Math math, Real real,
     const std::size_t items = column_bytes / size_of(real) / 64;
     const auto start = Clock::now();
     evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, math, real, options));
-    const cl::Kernel kernel = stream_kernel(function, *evaluators_.back(), items);
+    const cl::Kernel kernel = stream_kernel(function, *evaluators_.back());
     launch(kernel, items);
     return seconds_since(start) - launch(kernel, items).wall_s;
 }
 
 Entry Session::stream_entry(const Function& function, DeviceEvaluator& evaluator) {
     std::size_t items = column_bytes / size_of(evaluator.input_real());
-    cl::Kernel kernel = stream_kernel(function, evaluator, items);
+    const cl::Kernel kernel = stream_kernel(function, evaluator);
     launch(kernel, items);
-    if (launch(kernel, items).wall_s > slow_launch_s) kernel = stream_kernel(function, evaluator, items /= 4);
+    if (launch(kernel, items).wall_s > slow_launch_s) items /= 4;
     Entry entry;
     entry.samples = static_cast<double>(items);
     entry.launch = [this, kernel, items] { return launch(kernel, items); };

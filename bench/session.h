@@ -50,8 +50,7 @@ class Session {
     void add_program(const Function& function, runtime::Math math, runtime::Real real,
                      const std::string& policy, const std::string& root, const std::string& callee,
                      const std::vector<runtime::Substitution>& substitutions = {});
-    cl::Kernel stream_kernel(const Function& function, runtime::DeviceEvaluator& evaluator,
-                             std::size_t items);
+    cl::Kernel stream_kernel(const Function& function, runtime::DeviceEvaluator& evaluator);
     double build(const Function& function, runtime::Math math, runtime::Real real,
                  const runtime::ProgramOptions& options);
     Entry stream_entry(const Function& function, runtime::DeviceEvaluator& evaluator);

@@ -25,6 +25,11 @@ std::string all_options(const Device& device, Math math, Real real, const Progra
     return text;
 }
 
+// Kernels have an item for each element of their arrays, in whole groups.
+std::size_t padded(std::size_t items) {
+    return (items + local_size - 1) / local_size * local_size;
+}
+
 std::string indented(const std::string& text) {
     std::string out;
     for (char c : text) out += c == '\n' ? std::string("\n  ") : std::string(1, c);
@@ -88,9 +93,9 @@ cl::Buffer& DeviceEvaluator::buffer(std::size_t index, std::size_t bytes) {
 
 void DeviceEvaluator::launch(cl::Kernel& kernel, std::size_t items) {
     const std::size_t allowed = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.handle);
-    const std::size_t local = std::min(local_size, allowed);
-    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange((items + local - 1) / local * local),
-                                cl::NDRange(local));
+    std::size_t local = local_size;
+    while (local > allowed) local /= 2;
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(padded(items)), cl::NDRange(local));
 }
 
 template <class Body>
@@ -117,16 +122,24 @@ void DeviceEvaluator::run(const Function& function, std::size_t n, const std::ve
     const std::size_t size = size_of(real_);
     in_chunks(function.name, n, [&](cl::Kernel& kernel, std::size_t first, std::size_t items) {
         cl_uint argument = 0;
+        std::vector<char> filled_up;
         for (const void* input : inputs) {
-            cl::Buffer& to = buffer(argument, items * size);
-            queue_.enqueueWriteBuffer(to, CL_FALSE, 0, items * size,
-                                      static_cast<const char*>(input) + first * size);
+            cl::Buffer& to = buffer(argument, padded(items) * size);
+            const char* from = static_cast<const char*>(input) + first * size;
+            if (padded(items) > items) {
+                // With the chunk's first item; in one write, which is all that Oclgrind takes for initialised.
+                filled_up.assign(from, from + items * size);
+                for (std::size_t i = items; i < padded(items); ++i)
+                    filled_up.insert(filled_up.end(), from, from + size);
+                from = filled_up.data();
+            }
+            queue_.enqueueWriteBuffer(to, CL_TRUE, 0, padded(items) * size, from);
             kernel.setArg(argument++, to);
         }
         for (std::size_t i = 0; i < outputs.size(); ++i, ++argument) {
-            kernel.setArg(argument, buffer(argument, items * size));
+            kernel.setArg(argument, buffer(argument, padded(items) * size));
         }
-        kernel.setArg(argument, static_cast<cl_uint>(items));
+        kernel.setArg(argument, cl_uint{0});
         launch(kernel, items);
         for (std::size_t i = 0; i < outputs.size(); ++i)
             read_back(inputs.size() + i, outputs[i], first, items);

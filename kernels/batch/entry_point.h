@@ -1,7 +1,9 @@
 // How a function of the registry becomes an entry point over arrays.
 //
 // Arguments: one array for each scalar that the function takes, one for each that it returns, in the registry's
-// order, then the number of items. Launch with a fixed local size (64), the global size padded to its multiple.
+// order, then the index of the first item in them, 0 unless a table goes through in parts. Launch in whole groups of a fixed
+// local size (64), with arrays as long as the global size: no bound is compared with, since an `if` around the body masks
+// every operation on PoCL and costs a factor of 3, and a second body for the last group costs time to build.
 //
 // Separate arrays and scalar loads and stores, because a CPU device turns them into vector code across items.
 #ifndef VNDF_BATCH_ENTRY_POINT_H
@@ -21,17 +23,11 @@
     const VNDF_TYPE_##result_ result = function(VNDF_CALL_##arguments);                                      \
     VNDF_RESULTS_##result_(VNDF_BATCH_STORE)
 
-// Whole groups take the first branch, whose condition is the same for every item of a group: an `if (i < count)`
-// alone masks every operation on PoCL and costs a factor of 3.
 #define VNDF_ENTRY_POINT(kernel_name, function, arguments, result_)                                          \
     __kernel void kernel_name(VNDF_SCALARS_##arguments(VNDF_BATCH_IN)                                        \
-                                  VNDF_RESULTS_##result_(VNDF_BATCH_OUT) const uint count) {                 \
-        const size_t i = get_global_id(0);                                                                   \
-        if ((get_group_id(0) + 1) * get_local_size(0) <= count) {                                            \
-            VNDF_BATCH_BODY(function, arguments, result_)                                                    \
-        } else if (i < count) {                                                                              \
-            VNDF_BATCH_BODY(function, arguments, result_)                                                    \
-        }                                                                                                    \
+                                  VNDF_RESULTS_##result_(VNDF_BATCH_OUT) const uint first) {                 \
+        const size_t i = first + get_global_id(0);                                                           \
+        VNDF_BATCH_BODY(function, arguments, result_)                                                        \
     }
 
 // clang-format on
