@@ -129,6 +129,27 @@ std::vector<Point> hard_points(const Function& function) {
     return distinct(function, points);
 }
 
+std::vector<Point> clamped_points(const Function& function) {
+    const std::vector<std::array<double, 2>> alphas{{0, 0},        {0, .5},      {.5, 0},
+                                                    {1e-9, 1e-30}, {1e-8, 1e-8}, {.5, .5}};
+    std::vector<Stretched> normals{{.9, 2}, {.1, 3}};
+    if (!uses(function, {"slope_x", "x"})) normals.push_back({0, 1});
+    std::vector<Direction> directions{{1e-21, -3e-22, 1}, {2e-18, 1e-18, -1}};
+    for (const double cos_theta : {.9, .1, 1e-3, -.5}) directions.push_back(direction(cos_theta, .7));
+    const std::vector<double> u{0, .4, 1};
+
+    std::vector<Point> points;
+    for (const auto& alpha : alphas)
+        for (const Direction& wo : directions)
+            for (const Stretched& normal : normals) {
+                if (normal.cos_theta == 0 && alpha[0] + alpha[1] == 0) continue;  // no direction
+                for (const double u1 : u)
+                    for (const double u2 : u)
+                        points.push_back(make_point(wo, alpha, normal, {0, 0, 1}, {u1, u2}, 1.5));
+            }
+    return distinct(function, points);
+}
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
