@@ -17,9 +17,8 @@ std::vector<Point> lobes(const Function& sampler, bool quick);
 // The hard grid of `function`: corners of every argument range (about 30 000 points for a sampler).
 std::vector<Point> hard_points(const Function& function);
 
-// Points that guards answer: alpha below 1e-8, u at 0 and 1; normals on the horizon; and view directions so near the
-// axis that squares of their stretched components leave the range of float.
-std::vector<Point> clamped_points(const Function& function);
+// Points that guards answer: arguments at and beyond the ends of the domain, and samples next to the silhouette.
+std::vector<Point> guard_points(const Function& function);
 
 // `count` random points: log-uniform alpha and grazing angles, uniform and tail values of u.
 std::vector<Point> random_points(const Function& function, std::size_t count, std::uint64_t seed);
