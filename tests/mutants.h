@@ -589,7 +589,7 @@ inline const std::vector<Mutant>& mutants() {
          "VNDF_REAL near = (VNDF_R(1.0) - u2) / (big_r + abs_b)",
          "VNDF_REAL near = big_r - abs_b",
          "vndf_ggx_sample_wm_heitz2018",
-         {"pointwise, front"}},
+         {"pointwise, core"}},
         {"2018: a height that cancels",
          "ggx_heitz2018.h",
          "VNDF_REAL hz = opposite ? conjugate : VNDF_FMA(t, sine, t_i * z);",
