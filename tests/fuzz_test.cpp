@@ -125,8 +125,12 @@ class Generator {
         std::shuffle(names.begin(), names.end(), engine_);
         std::string text = chance(90) ? "" : "\xEF\xBB\xBF";
         const auto add_row = [&](auto cell) {
-            for (std::size_t c = 0; c < names.size(); ++c)
-                text += (c ? "," : "") + blanks() + cell(c) + blanks();
+            for (std::size_t c = 0; c < names.size(); ++c) {
+                if (c > 0) text += ',';
+                text += blanks();
+                text += cell(c);
+                text += blanks();
+            }
             text += end;
         };
         add_row([&](std::size_t c) { return names[c]; });

@@ -20,14 +20,13 @@ std::vector<runtime::Substitution> substitutions() {
 }
 
 // The quick check of the mutant's functions with the mistake switched in; 0: none.
-Report check_mutant(int id, const std::string& only) {
+Report check_mutant(int id, const std::string& only, runtime::Real real = runtime::Real::f32) {
     const auto selected = select(only);
     runtime::ProgramOptions program;
     program.functions = needed(selected);
     program.substitutions = substitutions();
     program.mutant = id;
-    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict,
-                                       runtime::Real::f32, program);
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict, real, program);
     CheckOptions options;
     options.quick = true;
     return check(evaluator, runtime::Math::strict, selected, options);
@@ -53,7 +52,7 @@ TEST_CASE("check notices every seeded mistake") {
     for (std::size_t i = 0; i < mutants().size(); ++i) {
         const Mutant& mutant = mutants()[i];
         INFO(mutant.mistake);
-        const Report report = check_mutant(static_cast<int>(i) + 1, mutant.only);
+        const Report report = check_mutant(static_cast<int>(i) + 1, mutant.only, mutant.real);
         CHECK_FALSE(report.passed());
         const std::set<std::string> failed = failed_checks(report);
         for (const std::string& check : mutant.noticed_by) {

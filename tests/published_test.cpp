@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "conformance/grids.h"
 #include "conformance/known_bias.h"
 #include "conformance/lobes.h"
@@ -23,7 +25,7 @@ runtime::DeviceEvaluator published() {
 }
 
 std::vector<const Function*> listings(const runtime::DeviceEvaluator& evaluator) {
-    const std::string kernels = ";" + evaluator.program().getInfo<CL_PROGRAM_KERNEL_NAMES>() + ";";
+    const std::string kernels = fmt::format(";{};", evaluator.program().getInfo<CL_PROGRAM_KERNEL_NAMES>());
     std::vector<const Function*> all;
     for (const Function& f : functions())
         if (kernels.find(";vndf_batch_" + f.name + ";") != std::string::npos) all.push_back(&f);

@@ -131,6 +131,60 @@ std::vector<Point> hard_points(const Function& function) {
 
 namespace {
 
+// Alpha below 1e-8, u at 0 and 1; normals on the horizon; and view directions so near the axis that squares of their
+// stretched components leave the range of float.
+std::vector<Point> clamped_points(const Function& function) {
+    const std::vector<std::array<double, 2>> alphas{{0, 0},        {0, .5},      {.5, 0},
+                                                    {1e-9, 1e-30}, {1e-8, 1e-8}, {.5, .5}};
+    std::vector<Stretched> normals{{.9, 2}, {.1, 3}};
+    if (!uses(function, {"slope_x", "x"})) normals.push_back({0, 1});
+    std::vector<Direction> directions{{1e-21, -3e-22, 1}, {2e-18, 1e-18, -1}};
+    for (const double cos_theta : {.9, .1, 1e-3, -.5}) directions.push_back(direction(cos_theta, .7));
+    const std::vector<double> u{0, .4, 1};
+
+    std::vector<Point> points;
+    for (const auto& alpha : alphas)
+        for (const Direction& wo : directions)
+            for (const Stretched& normal : normals) {
+                if (normal.cos_theta == 0 && alpha[0] + alpha[1] == 0) continue;  // no direction
+                for (const double u1 : u)
+                    for (const double u2 : u)
+                        points.push_back(make_point(wo, alpha, normal, {0, 0, 1}, {u1, u2}, 1.5));
+            }
+    return points;
+}
+
+// Samples next to the silhouette: the last values of one u, where the azimuth by the other is opposite to wo's (either
+// way round: world-space maps turn it by half), to the nearest numbers.
+std::vector<Point> silhouette_points() {
+    constexpr double azimuth = .7, turn = azimuth / 6.28318530717958648;
+    std::vector<Point> points;
+    for (const double alpha : {1e-4, 1e-2, .5, 1., 2.})
+        for (const double cos_theta : {.9, .5, .1, 1e-3, -.5})
+            for (const double last : {0x1p-24, 0x1p-23, 0x1p-20, 0x1p-16})
+                for (const double u : {turn, turn + .5})
+                    for (int ulps = -2; ulps <= 2; ++ulps) {
+                        const Direction wo = direction(cos_theta, azimuth);
+                        const double near = u + ulps * 0x1p-24;
+                        points.push_back(
+                            make_point(wo, {alpha, alpha}, {1, 0}, {0, 0, 1}, {near, 1 - last}, 1.5));
+                        points.push_back(
+                            make_point(wo, {alpha, alpha}, {1, 0}, {0, 0, 1}, {1 - last, near}, 1.5));
+                    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<Point> guard_points(const Function& function) {
+    std::vector<Point> points = clamped_points(function);
+    if (uses(function, {"u1"}))
+        for (const Point& point : silhouette_points()) points.push_back(point);
+    return distinct(function, points);
+}
+
+namespace {
+
 constexpr double pi = 3.14159265358979323846;
 
 // Random numbers whose sequence is the same with every standard library.

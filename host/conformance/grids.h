@@ -17,6 +17,9 @@ std::vector<Point> lobes(const Function& sampler, bool quick);
 // The hard grid of `function`: corners of every argument range (about 30 000 points for a sampler).
 std::vector<Point> hard_points(const Function& function);
 
+// Points that guards answer: arguments at and beyond the ends of the domain, and samples next to the silhouette.
+std::vector<Point> guard_points(const Function& function);
+
 // `count` random points: log-uniform alpha and grazing angles, uniform and tail values of u.
 std::vector<Point> random_points(const Function& function, std::size_t count, std::uint64_t seed);
 

@@ -29,7 +29,7 @@ std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Functio
 // angle of a direction (front or back), the relative error of anything else.
 Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table);
 
-// Hard and random points as a table.
+// Random, hard and guard points as a table.
 Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);
 
 }  // namespace vndf::conformance

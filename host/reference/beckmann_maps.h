@@ -31,7 +31,7 @@ Sample<R> beckmann_jakob2014(const Arguments<R>& in) {
     const View<R> v = view(in);
     if (nothing_visible(v)) return undefined<R>({-v.ex, -v.ey, R(0)});
     const Slopes<R> s = beckmann_slopes(v.sin_theta, v.cos_theta);
-    return beckmann_from_slopes(v, s, beckmann_slope_inverse(s, in.u1), gaussian_slope(in.u2, in.v2));
+    return beckmann_from_slopes(v, s, beckmann_slope_inverse(s, in.u1, in.v1), gaussian_slope(in.u2, in.v2));
 }
 
 // u1 -> one of three parts of the slope's range and the slope there, by the masses (of N(a)):

@@ -238,11 +238,30 @@ Slope<R> slope_below_top(const R& a, const R& down) {
     return a < top ? Slope<R>{a - down, down} : Slope<R>{top - down, a - top + down};
 }
 
-// The slope below which the mass u lies.
+// The mass above a slope x in [-1, 7], where a >= 8: the parts of x and of a do not cancel.
 template <class R>
-Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u) {
+R beckmann_slope_upper(const R& x, const R& a, const R& weight) {
+    using std::erfc, std::exp;
+    return (a * (erfc(x) - erfc(a)) - rcp_sqrt_pi<R>() * (exp(-x * x) - exp(-a * a))) / weight;
+}
+
+// The slope below which the mass u = 1 - v lies.
+template <class R>
+Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u, const R& v) {
     using std::log;
     using T = Real<R>;
+    // There v counts, which u hides; next to the edge, for smaller a, it moves x little.
+    if (s.a >= 8 && u > v) {
+        const auto f = [](auto x, auto v, auto a, auto weight) {
+            using S = decltype(a);
+            return log(v) - log(beckmann_slope_upper<S>(S(x), a, weight));
+        };
+        const auto df = [](T x, T, T a, T weight) {
+            return beckmann_slope_pdf<T>({a, weight}, {x, a - x}) / beckmann_slope_upper<T>(x, a, weight);
+        };
+        const R x = solve<R>(f, df, T(-1), T(7), v, s.a, s.weight);
+        return {x, s.a - x};
+    }
     const auto f = [](auto down, auto u, auto a, auto weight) {
         using S = decltype(a);
         return log(u) - beckmann_slope_log_cdf<S>({a, weight}, slope_below_top<S>(a, S(down)));

@@ -199,7 +199,7 @@ template <class R>
 R beckmann_slope_cdf_inverse(const R& c, const R& u) {
     const View<R> v = view_of_cosine(c);
     if (nothing_visible(v)) return R(-std::numeric_limits<Real<R>>::infinity());
-    return beckmann_slope_inverse(beckmann_slopes(v.sin_theta, v.cos_theta), u).x;
+    return beckmann_slope_inverse<R>(beckmann_slopes(v.sin_theta, v.cos_theta), u, 1 - u).x;
 }
 
 // Snell: the tangential part of -wo is divided by eta. A dot product of rounded vectors beyond 1 counts as 1

@@ -78,15 +78,17 @@ class Assembler {
         if (s.old_text.empty() || at == text.npos) fail("text not found");
         if (text.find(s.old_text, at + 1) != text.npos) fail("text found more than once");
 
-        const std::size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
-        const std::size_t end = std::min(text.find('\n', at + s.old_text.size() - 1), text.size());
+        const auto line_begin = [&](std::size_t i) { return i == 0 ? 0 : text.rfind('\n', i - 1) + 1; };
+        const auto line_end = [&](std::size_t i) { return std::min(text.find('\n', i), text.size()); };
+        std::size_t begin = line_begin(at), end = line_end(at + s.old_text.size() - 1);
+        // A directive cannot stand inside a macro's continued lines: all of them are repeated.
+        while (begin >= 2 && text[begin - 2] == '\\') begin = line_begin(begin - 1);
+        while (text[end - 1] == '\\' && end < text.size()) end = line_end(end + 1);
         const std::string_view block = text.substr(begin, end - begin);
         for (const std::string& line : split_lines(block)) {
             if (directive(line) == "include" || directive(line).substr(0, 2) == "if")
                 fail("directive changed");
         }
-        // A directive cannot stand inside a macro's continued lines.
-        if (block.back() == '\\' || (begin >= 2 && text[begin - 2] == '\\')) fail("line is continued");
 
         const std::size_t first_line = std::count(text.begin(), text.begin() + begin, '\n');
         const std::size_t last_line = first_line + std::count(block.begin(), block.end(), '\n');
