@@ -45,6 +45,18 @@ double cancellation(const RowReader& reader, const double* row) {
     return std::max(1.0, terms / std::abs(dot(o, m)));
 }
 
+// Whether the reference's map takes its u back to the direction of this row. It does not where wi is below the horizon, or
+// where so little is left of the half vector that a rounded wi is the reflection of no normal.
+bool is_inverse(const RowReader& reader, const double* row, const double* u, reference::Precision precision) {
+    const Direction o = reader.wo(row), d = reader.wi(row);
+    const std::array<double, 2> alpha = reader.alpha(row);
+    const double in[7] = {o[0], o[1], o[2], alpha[0], alpha[1], u[0], u[1]};
+    double back[4];
+    reference::find_evaluation<double>("vndf_ggx_sample_wi_conic2026")(in, back, precision);
+    const Direction off{back[0] - d[0], back[1] - d[1], back[2] - d[2]};
+    return length(off) < 0x1p-22;
+}
+
 struct Judge {
     const Function& function;
     const Table& table;
@@ -73,7 +85,8 @@ double error_at(const Judge& j, std::size_t i) {
     reference::find_evaluation<R>(j.function.name)(in.data(), exact, precision(j.real));
     R size = 0, difference = 0;
     for (std::size_t k = 0; k < j.function.outputs.size(); ++k) {
-        const R delta = static_cast<R>(j.results[k][i]) - exact[k];
+        R delta = static_cast<R>(j.results[k][i]) - exact[k];
+        if (j.function.outputs[k] == "u1") delta -= std::nearbyint(delta);  // an azimuth
         size += exact[k] * exact[k];
         difference += delta * delta;
     }
@@ -82,6 +95,10 @@ double error_at(const Judge& j, std::size_t i) {
     const double lost = cancellation(j.reader, row.data());
     if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
     if (at_edge(j.function, row.data(), j.real)) return skip;
+    if (j.function.result == "U") {
+        const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
+        if (!is_inverse(j.reader, row.data(), u, precision(j.real))) return skip;
+    }
     if (size < smallest && difference <= 2 * smallest) return 0;
     if (j.unit == Unit::condition) {
         const double condition = absolute_condition(

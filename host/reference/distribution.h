@@ -77,12 +77,16 @@ class Distribution {
     double pivot_rounding() const;
 
   private:
-    enum class Kind { ggx, bounded, beckmann };  // bounded: GGX reflections from the front, on their own cap
+    // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
+    enum class Kind { ggx, bounded, conic, beckmann };
     struct Range;
     struct Node;
 
     Vec3d half(double x, double y, double z) const;
     double normaliser() const;
+    double visible_area() const;
+    void tabulate_azimuths();
+    double share_below(double phi, double tangent) const;
     Range range(double phi) const;
     void cumulative(double phi, const std::vector<double>& tan_theta, double* mass) const;
     void add(const Node& node, QuadratureRule& rule) const;
@@ -108,7 +112,9 @@ class Distribution {
     double tan_half_;    // tan(theta / 2)
     double a_, weight_;  // Beckmann: cot(theta) and N(a)
     double k_, gap_;     // bounded: o_z > -k cos, 1 - k
-    double cap_;         // bounded: (1 + k cos) / 2
+    double cap_;         // bounded: (1 + k cos) / 2; conic: that of what is above the horizon
+    // Conic: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
+    std::vector<double> azimuth_, mass_, slope_;
 };
 
 }  // namespace vndf::reference

@@ -7,8 +7,7 @@
 //       P  = (M, p Y, q X)  on the chord between the two rim points of the slice m1 = p Y, M = m0 at both;
 //       P2 = P + epsilon s' on the chord between the two rim points with that component across s', s' = s without s1;
 //       m  = P2 + tau s     on the sphere.
-//     All three steps are roots of quadratics written as sums of positive terms, and the height of the reflection is a
-//     product of positive ones: it is above the horizon for every u.
+//     All three steps are roots of quadratics, written as sums of positive terms.
 // Symbols: those of ggx_conic2026_cone.h; s = (s0, s1, s2) in the axes e0, e1, e2, n = |s'|, c0 = s0 / n, c2 = s2 / n,
 //     p^2 = mu / (mu + mu1), q^2 = mu / (mu + mu2), rho = (mu1 - mu2) / (mu + mu1), a = c0^2 + rho c2^2.
 #ifndef VNDF_GGX_CONIC2026_H
@@ -31,9 +30,9 @@ VNDF_FN struct vndf_impl_disk vndf_impl_disk_of(VNDF_REAL2 u) {
     return d;
 }
 
-// A stretched normal h of any length, v . h, and, above the surface, h^T Q h > 0 over its squared length.
+// A stretched normal of any length.
 struct vndf_impl_conic_normal {
-    VNDF_REAL x, y, z, cosine, height;
+    VNDF_REAL x, y, z;
 };
 
 // The plain cap of ggx_dupuy2023.h: behind the surface it wastes nothing.
@@ -52,53 +51,54 @@ VNDF_FN struct vndf_impl_plain_cap vndf_impl_plain_cap_of(struct vndf_impl_view 
     return plain;
 }
 
-// The normal of the cap for the same disk point: its direction is the azimuth, 1 - rest the height. `otherwise`: the
-// normal above the surface.
-VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_choose(int front, struct vndf_impl_plain_cap cap,
-                                                             VNDF_REAL t, struct vndf_impl_disk d,
-                                                             struct vndf_impl_conic_normal otherwise) {
+// The cap's normal for the same disk point, whose direction is the azimuth and 1 - rest the height.
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_cap_normal(struct vndf_impl_plain_cap cap,
+                                                                 struct vndf_impl_disk d) {
     struct vndf_impl_conic_normal h;
     VNDF_REAL scale = VNDF_SQRT(VNDF_FMA(d.rest, cap.p, cap.q));
-    VNDF_REAL x = VNDF_FMA(scale, d.x, cap.x), y = VNDF_FMA(scale, d.y, cap.y), z = d.rest * cap.sqrt_p;
-    VNDF_REAL length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
-    h.x = front ? otherwise.x : x;
-    h.y = front ? otherwise.y : y;
-    h.z = front ? otherwise.z : z;
-    h.cosine = front ? otherwise.cosine : VNDF_R(0.5) * t * cap.sqrt_p * length2;
-    h.height = otherwise.height;
+    h.x = VNDF_FMA(scale, d.x, cap.x);
+    h.y = VNDF_FMA(scale, d.y, cap.y);
+    h.z = d.rest * cap.sqrt_p;
     return h;
 }
 
-// The reflection of wo about the unstretched h, and its density D / (2 n). The view direction and n = 2 sigma_vis are of
-// the unit wo; `front`: it is above the surface, and so is the reflection.
-VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
-                                                        VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
-                                                        VNDF_REAL alpha_y, int front, VNDF_REAL n) {
+// The unit reflection of wo, t its stretched length, about the unstretched normal, and its density D / (2 n), n = 2
+// sigma_vis of wo as given. Above the surface the normal is `front`, behind it `behind`, one of the cap.
+VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal front,
+                                                        struct vndf_impl_conic_normal behind,
+                                                        VNDF_REAL sqrt_p, VNDF_REAL wo_x, VNDF_REAL wo_y,
+                                                        VNDF_REAL wo_z, VNDF_REAL t, VNDF_REAL alpha_x,
+                                                        VNDF_REAL alpha_y, VNDF_REAL n) {
     struct vndf_impl_sample o;
-    VNDF_REAL gx = alpha_x * h.x, gy = alpha_y * h.y;
-    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
-    VNDF_REAL h2 = VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    VNDF_REAL cosine = VNDF_FMA(wo_x, gx, VNDF_FMA(wo_y, gy, wo_z * h.z));
-    // At a silhouette the sum cancels, and the map's own terms are better. Elsewhere it is the sum that keeps the
-    // reflection's length.
-    cosine = cosine * cosine < VNDF_R(0.015625) * g2 ? h.cosine : cosine;
+    int above = wo_z > VNDF_R(0.0);
+    VNDF_REAL hx = above ? front.x : behind.x, hy = above ? front.y : behind.y,
+              hz = above ? front.z : behind.z;
+    // Reflect about the normal g of any length: no rounding of g can tilt the mirror.
+    VNDF_REAL gx = alpha_x * hx, gy = alpha_y * hy;
+    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz)),
+              h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
+    VNDF_REAL cosine = VNDF_FMA(wo_x, gx, VNDF_FMA(wo_y, gy, wo_z * hz));
+    // v . h = sqrt(p) t |h|^2 / 2 on the cap: at a silhouette, where the sum cancels, it keeps the reflection in it.
+    int silhouette = cosine * cosine < VNDF_R(0.015625) * g2;
+    cosine = silhouette && !above ? VNDF_R(0.5) * t * sqrt_p * h2 : cosine;
     int defined = g2 > VNDF_R(0.0);
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0), ratio = g2 / h2;
     o.x = VNDF_FMA(twice, gx, -wo_x);
     o.y = VNDF_FMA(twice, gy, -wo_y);
-    o.z = VNDF_FMA(twice, h.z, -wo_z);
-    // Near the horizon the product of positive terms: below 2^-10, where the length does not feel it.
-    VNDF_REAL height = h.height / ratio;
-    o.z = front && o.z < VNDF_R(0.0009765625) ? height : o.z;
-    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (alpha_x * alpha_y);
+    o.z = VNDF_FMA(twice, hz, -wo_z);
+    // The height is positive, and rounding denies it within its error of the horizon alone: mirrored there, which keeps
+    // the length, and never 0.
+    VNDF_REAL height = vndf_impl_max(vndf_impl_abs(o.z), VNDF_R(0.0625) * VNDF_EPSILON);
+    o.z = above ? height : o.z;
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)));
+    o.x *= rcp;
+    o.y *= rcp;
+    o.z *= rcp;
+    VNDF_REAL unit_n = n * rcp;
+    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / unit_n) * ratio / (alpha_x * alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return o;
-}
-
-// The unit vector along w.
-VNDF_FN VNDF_REAL3 vndf_impl_unit(VNDF_REAL3 w) {
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(w.x, w.x, VNDF_FMA(w.y, w.y, w.z * w.z)));
-    return VNDF_MAKE3(w.x * rcp, w.y * rcp, w.z * rcp);
 }
 
 // --- The lobe of one wo and alpha ---
@@ -106,13 +106,13 @@ VNDF_FN VNDF_REAL3 vndf_impl_unit(VNDF_REAL3 w) {
 // What all samples of a lobe share. Made by vndf_ggx_conic2026_lobe, used by the functions with _lobe in their names;
 // its members are internals.
 struct vndf_ggx_conic2026 {
-    VNDF_REAL wo_x, wo_y, wo_z;  // unit
+    VNDF_REAL wo_x, wo_y, wo_z;
     VNDF_REAL alpha_x, alpha_y;  // raised
     VNDF_REAL e0x, e0y, e0z, e1x, e1y, e1z, e2x, e2y, e2z;
     VNDF_REAL s0, s1, s2, n, c0, c2;
     VNDF_REAL p, q, p2, q2, co_p2, co_q2;  // co_p2 = 1 - p2
     VNDF_REAL rho, a;
-    VNDF_REAL t, twice_sigma;  // of the unit wo; sigma_vis
+    VNDF_REAL t, twice_sigma;  // stretched length; sigma_vis
     VNDF_REAL steepness;       // t (mu + mu1)
     VNDF_REAL cap_x, cap_y, cap_p, cap_q, cap_sqrt_p;
 };
@@ -147,8 +147,9 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     sine = back ? -sine : sine;
     VNDF_REAL difference = size / scale, mu1 = VNDF_R(0.5) * (trace + difference);
     VNDF_REAL both = c.mu + mu1, rcp_mu = VNDF_R(1.0) / (both * c.mu * mu1), rcp_both = rcp_mu * c.mu * mu1;
-    // mu mu1 mu2 = s.z (alpha_x alpha_y / t)^2, and (mu + mu1)(mu + mu2) = norm2 poles.
-    VNDF_REAL r = lobe.alpha_x * lobe.alpha_y / c.t, mu2 = c.sz * r * (both * rcp_mu) * r;
+    // mu mu1 mu2 = s.z (alpha_x alpha_y |wo| / t)^2, and (mu + mu1)(mu + mu2) = norm2 poles.
+    VNDF_REAL wo2 = VNDF_FMA(lobe.wo_x, lobe.wo_x, VNDF_FMA(lobe.wo_y, lobe.wo_y, lobe.wo_z * lobe.wo_z));
+    VNDF_REAL r = lobe.alpha_x * lobe.alpha_y / c.t, mu2 = c.sz * r * (both * rcp_mu) * (r * wo2);
     VNDF_REAL rcp_other = both * c.rcp_poles * (z * z);  // 1 / (mu + mu2)
     lobe.e0x = x;
     lobe.e0y = y;
@@ -177,13 +178,12 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
 // return: a struct for vndf_ggx_sample_wi_conic2026_lobe, _lobe_with_pdf and vndf_ggx_pdf_wi_conic2026_lobe.
 VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 lobe;
-    VNDF_REAL3 unit = vndf_impl_unit(wo);
-    struct vndf_impl_view v = vndf_impl_stretch(unit, alpha);
+    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_cone c = vndf_impl_cone_of(v);
     struct vndf_impl_plain_cap cap = vndf_impl_plain_cap_of(v);
-    lobe.wo_x = unit.x;
-    lobe.wo_y = unit.y;
-    lobe.wo_z = unit.z;
+    lobe.wo_x = wo.x;
+    lobe.wo_y = wo.y;
+    lobe.wo_z = wo.z;
     lobe.alpha_x = v.alpha_x;
     lobe.alpha_y = v.alpha_y;
     lobe.t = v.r;
@@ -205,7 +205,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_RE
     return lobe;
 }
 
-// The normal of a disk point, and what its reflection's height is made of.
+// The normal of a disk point.
 VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_conic2026 l,
                                                                 struct vndf_impl_disk d) {
     struct vndf_impl_conic_normal h;
@@ -228,8 +228,6 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     h.x = VNDF_FMA(m0, l.e0x, VNDF_FMA(m1, l.e1x, m2 * l.e2x));
     h.y = VNDF_FMA(m0, l.e0y, VNDF_FMA(m1, l.e1y, m2 * l.e2y));
     h.z = VNDF_FMA(m0, l.e0z, VNDF_FMA(m1, l.e1z, m2 * l.e2z));
-    h.cosine = l.t * cosine;
-    h.height = l.steepness * delta * VNDF_FMA(l.a, delta, VNDF_R(2.0) * root);
     return h;
 }
 
@@ -241,10 +239,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l,
     cap.p = l.cap_p;
     cap.q = l.cap_q;
     cap.sqrt_p = l.cap_sqrt_p;
-    int front = l.wo_z > VNDF_R(0.0);
-    struct vndf_impl_conic_normal h =
-        vndf_impl_conic_choose(front, cap, l.t, d, vndf_impl_conic_normal_of(l, d));
-    return vndf_impl_conic_reflect(h, l.wo_x, l.wo_y, l.wo_z, l.alpha_x, l.alpha_y, front, l.twice_sigma);
+    return vndf_impl_conic_reflect(vndf_impl_conic_normal_of(l, d), vndf_impl_conic_cap_normal(cap, d),
+                                   cap.sqrt_p, l.wo_x, l.wo_y, l.wo_z, l.t, l.alpha_x, l.alpha_y,
+                                   l.twice_sigma);
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_conic2026, for many u and one wo and alpha.
@@ -257,7 +254,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_lobe_with_pdf(struct vndf_ggx_co
     return vndf_impl_direction_pdf(vndf_impl_conic2026(lobe, u));
 }
 
-// The density of a lobe's reflections: as vndf_ggx_pdf_wi_conic2026, for the unit vector along the lobe's wo.
+// The density of a lobe's reflections: as vndf_ggx_pdf_wi_conic2026.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe, VNDF_REAL3 wi) {
     struct vndf_impl_half h =
         vndf_impl_half_of(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), wi, lobe.alpha_x, lobe.alpha_y);
@@ -282,13 +279,75 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_with_pdf(VNDF_REAL3 wo, VNDF_REA
     return vndf_impl_direction_pdf(vndf_impl_conic2026(vndf_ggx_conic2026_lobe(wo, alpha), u));
 }
 
+// --- The inverse ---
+
+// The stretched normal between wo and wi in the lobe's axes, its cosine with s, and m^T Q m / (mu + mu1) >= 0.
+struct vndf_impl_conic_point {
+    VNDF_REAL m0, m1, m2, cosine, height;
+};
+
+// The three moves backwards: each length is the root that the map takes, from the normal's side.
+VNDF_FN VNDF_REAL2 vndf_impl_conic_invert(struct vndf_ggx_conic2026 l, struct vndf_impl_conic_point m) {
+    VNDF_REAL slope = VNDF_FMA(l.c0, m.m0, l.rho * l.c2 * m.m2);
+    VNDF_REAL root2 = VNDF_FMA(slope, slope, -l.a * m.height);
+    VNDF_REAL root = VNDF_SQRT(root2 > VNDF_R(0.0) ? root2 : VNDF_R(0.0)), sum = slope + root;
+    VNDF_REAL delta = sum > VNDF_R(0.0) ? m.height / sum : VNDF_R(0.0), tau = delta / l.n;
+    // P2, and what was left of the second chord.
+    VNDF_REAL rim2 = VNDF_FMA(-l.c0, delta, m.m0), m2 = VNDF_FMA(-l.c2, delta, m.m2);
+    VNDF_REAL y = VNDF_FMA(-l.s1, tau, m.m1) / l.p, left = tau * VNDF_FMA(VNDF_R(2.0), m.cosine, -tau) / l.p2;
+    VNDF_REAL y2 = y * y, inside = VNDF_R(1.0) - y2;
+    VNDF_REAL rim = VNDF_SQRT(VNDF_FMA(l.co_p2, y2, l.co_q2 * (inside > VNDF_R(0.0) ? inside : VNDF_R(0.0))));
+    VNDF_REAL rims = l.c0 * (rim + rim2), share = l.rho * l.q2;
+    VNDF_REAL part = rims > VNDF_R(0.0) ? left / rims : VNDF_R(0.0);
+    VNDF_REAL px = VNDF_FMA(-l.c2 * share, part, m2), x = px / l.q;
+    VNDF_REAL rest = part * (VNDF_FMA(l.rho * l.c2, px, l.c0 * rim) + root), square = VNDF_FMA(x, x, y2);
+    VNDF_REAL u2 = square > VNDF_R(0.5) ? VNDF_R(1.0) - rest : square;
+    return VNDF_MAKE2(vndf_impl_turn(x, y), u2);
+}
+
+// The u at which vndf_ggx_sample_wi_conic2026 gives wi.
+// wo, wi: unit vectors, local frame, anywhere on the sphere.
+// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// return: (u.x, u.y) in [0, 1]. A wi below the horizon, which no u gives, counts as one on it; (0, 0) for wi = -wo.
+VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
+    VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
+    VNDF_REAL sx = hx / l.alpha_x, sy = hy / l.alpha_y;
+    VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
+              h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
+    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_R(1.0) / VNDF_SQRT(length2) : VNDF_R(0.0);
+    VNDF_REAL mx = sx * rcp, my = sy * rcp, mz = hz * rcp, cosine = VNDF_R(0.5) * h2 * rcp / l.t;
+    struct vndf_impl_conic_point m;
+    m.m0 = VNDF_FMA(mx, l.e0x, VNDF_FMA(my, l.e0y, mz * l.e0z));
+    m.m1 = VNDF_FMA(mx, l.e1x, VNDF_FMA(my, l.e1y, mz * l.e1z));
+    m.m2 = VNDF_FMA(mx, l.e2x, VNDF_FMA(my, l.e2y, mz * l.e2z));
+    m.cosine = cosine;
+    // h^T Q h / |h|^2 = wi.z |h|^2 / t of the half vector.
+    VNDF_REAL height = vndf_impl_max(wi.z, VNDF_R(0.0)) * (h2 * rcp * rcp) / l.steepness;
+    m.height = height;
+    VNDF_REAL2 front = vndf_impl_conic_invert(l, m);
+    // The cap: 1 - u2 = 2 (s . m) m.z / p, and the stretched reflection, whose part across z has the square
+    // u2 p ((1 - u2) p + q).
+    VNDF_REAL twice = VNDF_R(2.0) * cosine, rcp_t = VNDF_R(1.0) / l.t;
+    VNDF_REAL rcp_p = l.cap_p > VNDF_R(0.0) ? VNDF_R(1.0) / l.cap_p : VNDF_R(0.0);
+    VNDF_REAL ox = VNDF_FMA(twice, mx, -l.alpha_x * l.wo_x * rcp_t),
+              oy = VNDF_FMA(twice, my, -l.alpha_y * l.wo_y * rcp_t);
+    VNDF_REAL rest = twice * mz * rcp_p;
+    VNDF_REAL u2 =
+        VNDF_FMA(ox, ox, oy * oy) * rcp_p / VNDF_FMA(vndf_impl_max(rest, VNDF_R(0.0)), l.cap_p, l.cap_q);
+    u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
+    int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
+    VNDF_REAL u1 = above ? front.x : vndf_impl_turn(ox, oy);
+    u2 = vndf_impl_min(vndf_impl_max(above ? front.y : u2, VNDF_R(0.0)), VNDF_R(1.0));
+    return VNDF_MAKE2(defined ? u1 : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
+}
+
 // --- One alpha ---
 
 // For alpha_x = alpha_y = alpha the plane of incidence holds e0 and e1, and s2 = c2 = 0: mu by one quadratic, M of P2 in
 // one step.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
-    VNDF_REAL3 unit = vndf_impl_unit(wo);
-    struct vndf_impl_view v = vndf_impl_stretch(unit, VNDF_MAKE2(alpha, alpha));
+    struct vndf_impl_view v = vndf_impl_stretch(wo, VNDF_MAKE2(alpha, alpha));
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     VNDF_REAL rcp_t = VNDF_R(1.0) / v.r, sz = v.z * rcp_t, sine = v.l * rcp_t;
     VNDF_REAL pole = sz * (v.alpha_x * v.alpha_x), weight = sine * sine;
@@ -310,15 +369,12 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     h.x = VNDF_FMA(across, ex, -m2 * ey);
     h.y = VNDF_FMA(across, ey, m2 * ex);
     h.z = VNDF_FMA(-m1, e, m0) * rcp_norm;
-    h.cosine = v.r * cosine;
-    h.height = v.r * (mu + mu1) * delta * VNDF_FMA(VNDF_R(2.0), rim, delta);
-    int front = v.z > VNDF_R(0.0);
     // sqrt((mu + A)^2) is no root here.
     VNDF_REAL visible = VNDF_R(2.0) * v.r * mu * (mu * rcp_b) / norm2,
-              behind = v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
-    h = vndf_impl_conic_choose(front, vndf_impl_plain_cap_of(v), v.r, d, h);
-    return vndf_impl_conic_reflect(h, unit.x, unit.y, unit.z, v.alpha_x, v.alpha_y, front,
-                                   front ? visible : behind);
+              hidden = v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
+    struct vndf_impl_plain_cap cap = vndf_impl_plain_cap_of(v);
+    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_normal(cap, d), cap.sqrt_p, wo.x, wo.y, wo.z, v.r,
+                                   v.alpha_x, v.alpha_y, v.z > VNDF_R(0.0) ? visible : hidden);
 }
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.
