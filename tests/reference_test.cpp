@@ -344,6 +344,8 @@ TEST_CASE("the density of a sample is the inverse of its map's Jacobian") {
                     one(pushforward(ggx_heitz2018<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_dupuy2023<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_eto2023<D2>, wo, z, a[0], a[1], u1, u2));
+                    one(pushforward(ggx_eto2023_polygon<D2>, wo, z, a[0], a[1], u1, u2));
+                    one(pushforward(ggx_conic2026<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_benyoub2024<D2>, wo, n, a[0], a[0], u1, u2));
                     one(pushforward(beckmann_jakob2014<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_walter2007<D2>, wo, z, a[0], a[1], u1, u2));
@@ -736,7 +738,7 @@ TEST_CASE("every sampler is finite, unit and above the horizon over the hard gri
 
 TEST_CASE("the cap's margin tells inside from outside") {
     const auto margin = [](const std::vector<double>& in) {
-        return reference::cap_margin(in.data(), Precision::f32);
+        return reference::cap_margin("vndf_ggx_pdf_wi_eto2023", in.data(), Precision::f32);
     };
     const auto pdf = [](const std::vector<double>& in) { return evaluate("vndf_ggx_pdf_wi_eto2023", in); };
     const auto with = [&](const std::array<double, 4>& wi) {

@@ -239,7 +239,7 @@ double Distribution::pivot_rounding() const {
         for (const double u2 : {0.2, 0.5, 0.8}) {
             std::vector<double> in = in_;
             in[in.size() - 2] = u1, in[in.size() - 1] = u2;
-            double d[3], p[2], q[2];
+            double d[3], p[2] = {}, q[2] = {};
             evaluate(in.data(), d, precision_);
             pivots(1, &d[0], &d[1], &d[2], &p[0], &p[1]);
             for (int i = 0; i < 3; ++i) {

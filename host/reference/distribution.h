@@ -76,6 +76,10 @@ class Distribution {
     // estimate from the lobe alone: pivot tests of float samples make sense where it is below about 1e-3.
     double pivot_rounding() const;
 
+    // The probability that a visible normal reflects wo above the horizon, by quadrature along the horizon's curve; of the
+    // samplers that give no others. 1 behind the surface.
+    double reflection_probability() const { return kind_ == Kind::conic ? cap_ / sigma_ : 1; }
+
   private:
     // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
     enum class Kind { ggx, bounded, conic, beckmann };
