@@ -96,37 +96,54 @@ Distribution::Distribution(std::string_view sampler, const double* in, Precision
 // The area inside the horizon's curve, seen along the stretched wo, in units of pi. The normals that reflect to the horizon
 // are the half vectors g of v and (cos phi, sin phi, 0), stretched back:
 //     length area = 1 / (2 pi) * integral of v . (g x g') / |g|^2 dphi.
-// |g| has its least values, as narrow as alpha z, near -wo; panels are graded towards them.
+// |g| has its least values, as narrow as alpha z, near -wo: azimuths are counted from there, and panels graded towards
+// them.
 double Distribution::visible_area() const {
     const double x = wo_.x, y = wo_.y, z = wo_.z, x2 = alpha_x_ * alpha_x_, y2 = alpha_y_ * alpha_y_;
-    const auto square = [&](double phi) {
-        const double gx = (x + std::cos(phi)) / alpha_x_, gy = (y + std::sin(phi)) / alpha_y_;
-        return gx * gx + gy * gy + z * z;
+    const double sine = std::sqrt(x * x + y * y), less = z * z / (1 + sine), opposite = std::atan2(-y, -x);
+    struct Half {
+        double c, s;  // of the azimuth
+        double x, y;  // wo + (c, s, 0)
     };
-    std::vector<double> breaks;
-    constexpr int count = 64;
-    for (int i = 0; i < count; ++i) {
-        double low = 2 * pi_d * i / count, high = low + 2 * pi_d / count;
-        breaks.push_back(low);
-        // A least value between: of a derivative that changes its sign.
-        const auto rising = [&](double phi) {
-            const double c = std::cos(phi), s = std::sin(phi);
-            return (y + s) / y2 * c - (x + c) / x2 * s > 0;
-        };
+    const auto half_at = [&](double turn) {
+        const double middle = opposite + turn / 2, chord = 2 * std::sin(turn / 2);
+        return Half{std::cos(opposite + turn), std::sin(opposite + turn),
+                    less * std::cos(opposite) - chord * std::sin(middle),
+                    less * std::sin(opposite) + chord * std::cos(middle)};
+    };
+    // A least value is where the derivative changes its sign, between points graded towards -wo and the axes, where two
+    // can be close together.
+    const auto rising = [&](double turn) {
+        const Half h = half_at(turn);
+        return h.y / y2 * h.c - h.x / x2 * h.s > 0;
+    };
+    const auto once = [](double turn) { return turn - 2 * pi_d * std::round(turn / (2 * pi_d)); };
+    const auto grade = [&](std::vector<double>& into, double at) {
+        into.push_back(once(at));
+        for (double d = pi_d / 2; d > 1e-17; d /= 2) into.insert(into.end(), {once(at - d), once(at + d)});
+    };
+    std::vector<double> points{-pi_d, pi_d};
+    grade(points, 0);
+    for (int i = 0; i < 4; ++i) grade(points, i * pi_d / 2 - opposite);
+    std::sort(points.begin(), points.end());
+    std::vector<double> breaks = points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        double low = points[i], high = points[i + 1];
         if (rising(low) || !rising(high)) continue;
         for (int step = 0; step < 60; ++step) (rising((low + high) / 2) ? high : low) = (low + high) / 2;
-        for (double d = 2 * pi_d / count; d > 1e-16; d /= 4) breaks.insert(breaks.end(), {low - d, low + d});
-        breaks.push_back(low);
+        grade(breaks, low);
     }
     std::sort(breaks.begin(), breaks.end());
-    breaks.push_back(breaks.front() + 2 * pi_d);
     double area = 0;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
-        gauss<10>(breaks[i], breaks[i + 1], [&](double phi, double weight) {
-            const double c = std::cos(phi), s = std::sin(phi);
-            const double turn = 1 + x * c + y * s - x2 * x * c - y2 * y * s;
-            area += weight * turn / (alpha_x_ * alpha_y_ * square(phi));
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        if (!(breaks[i] < breaks[i + 1])) continue;
+        gauss<10>(breaks[i], breaks[i + 1], [&](double turn, double weight) {
+            const Half h = half_at(turn);
+            const double gx = h.x / alpha_x_, gy = h.y / alpha_y_, half_sine = std::sin(turn / 2);
+            const double along = less + 2 * sine * half_sine * half_sine - x2 * x * h.c - y2 * y * h.s;
+            area += weight * along / (alpha_x_ * alpha_y_ * (gx * gx + gy * gy + z * z));
         });
+    }
     return z * area / (2 * pi_d) / length_;
 }
 

@@ -25,9 +25,10 @@ int main(int argc, char** argv) {
     say(integral <= 1e-10, "integral of the density, %.3g lobes: largest difference to 1 %.2g",
         double(lobes / 10), integral);
     const Lost lost = count_lost(directions);
-    say(lost.outside == 0 && lost.worst_round_trip < 1e-6,
-        "%.3g directions above the horizon: %.0f without a u, largest round trip %.2g", double(directions),
-        double(lost.outside), lost.worst_round_trip);
+    say(lost.outside == 0 && lost.worst_round_trip < 1e-16,
+        "%.3g directions above the horizon: %.0f without a u, largest probability between one and the "
+        "reflection of its u %.2g",
+        double(directions), double(lost.outside), lost.worst_round_trip);
     const std::uint64_t below = count_below(samples);
     say(below == 0, "%.3g reflections in float: %.0f below the horizon, not finite or not of unit length",
         double(samples), double(below));
