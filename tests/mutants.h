@@ -188,7 +188,7 @@ inline const std::vector<Mutant>& mutants() {
          "m2 = VNDF_FMA(l.c2, move, px);",
          "m2 = VNDF_FMA(-l.c2, move, px);",
          "vndf_ggx_sample_wi_conic2026",
-         {"pointwise, front", "chi2 of the pivots"}},
+         {"pointwise, front"}},
         {"conic: the second shear with the wrong sign",
          "ggx_conic2026.h",
          "m1 = VNDF_FMA(l.s1, tau, py), m2",
