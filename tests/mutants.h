@@ -261,10 +261,10 @@ inline const std::vector<Mutant>& mutants() {
          "int swap = alpha_x > alpha_y;",
          "vndf_ggx_sample_wi_eto2023_polygon",
          {"pointwise, front", "chi2 of the pivots"}},
-        {"polygon: 1 + k z by the difference that cancels",
+        {"polygon: 1 + k z of alphas below 1 for all",
          "ggx_eto2023_polygon.h",
-         "polygon.b = wide ? b :",
-         "polygon.b = z2 < VNDF_R(0.0) ? b :",
+         "VNDF_REAL b = VNDF_FMA(cap.p, z2, l2 * s * VNDF_FMA(sine, cap.p, cap.q)) * rcp;",
+         "VNDF_REAL b = VNDF_FMA(VNDF_R(1.0) - z2, cap.z, VNDF_R(1.0));",
          "vndf_ggx_sample_wi_eto2023_polygon",
          {"pointwise, front"}},
     };

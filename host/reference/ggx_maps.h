@@ -163,8 +163,9 @@ Bound<R> bound(const View<R>& v, const Vec3<R>& wo) {
 // quotient of linear functions is largest at a vertex. With N the numerator,
 // 1 + k cos(theta) = ((X / alpha_x^2 + Y / alpha_y^2)(1 + cos) + (z^2 - X - Y) + (1 - cos)(X + Y)) / N.
 template <class R>
-Bound<R> polygon_bound(const View<R>& v, const Vec3<R>& wo) {
+Bound<R> polygon_bound(const View<R>& v, const Vec3<R>& view) {
     using std::abs, std::sin;
+    const Vec3<R> wo = normalised(view);
     const bool swap = v.alpha_x < v.alpha_y;
     const R &low = swap ? v.alpha_x : v.alpha_y, &high = swap ? v.alpha_y : v.alpha_x;
     const R y = abs(swap ? wo.x : wo.y), sine = hypotenuse(wo.x, wo.y), z2 = squared(wo.z);

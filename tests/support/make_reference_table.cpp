@@ -433,7 +433,8 @@ Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay,
 }
 
 // The bound of the polygon: 1 / (1 - k) is the largest of the three candidates.
-Real polygon_k(const Vec& wo, const Real& ax, const Real& ay) {
+Real polygon_k(const Vec& view, const Real& ax, const Real& ay) {
+    const Vec wo = unit(view);
     const bool swap = ax < ay;
     const Real low = swap ? ax : ay, high = swap ? ay : ax, y = abs(swap ? wo.x : wo.y);
     const Real sine = sqrt(wo.x * wo.x + wo.y * wo.y), z2 = wo.z * wo.z;
@@ -958,14 +959,15 @@ void conic(Table& table) {
             return a;
         };
         const bool round = l.ax == l.ay && l.cos_theta == 1;  // any axes will do
-        if (k % 5 == 1)
+        // For one alpha the bound has a kink there, and no derivative by either.
+        if (l.ax != l.ay)
             table.row("vndf_ggx_sample_wi_eto2023_polygon_with_pdf", join(w, {l.ax, l.ay, u1, u2}));
         if (!round) table.row("vndf_ggx_sample_wi_conic2026_with_pdf", join(w, {l.ax, l.ay, u1, u2}));
         table.row("vndf_ggx_sample_wi_conic2026_isotropic_with_pdf", join(w, {l.ax, u1, u2}));
         table.row("vndf_ggx_sigma_visible", join(w, {l.ax, l.ay}));
         table.row("vndf_ggx_reflection_probability", join(w, {l.ax, l.ay}));
         // A reflection of this lobe, next to the one of u = (0.3, 0.4), from which its u is sought.
-        if (l.cos_theta < 0 || round) return;
+        if (l.cos_theta <= 0 || round) return;
         const Vec wo = unit({w[0], w[1], w[2]});
         const Vec wi = conic(wo, l.ax, l.ay, Real(0.31), Real(0.38)).direction;
         const std::vector<double> row = join(
