@@ -26,6 +26,7 @@ cl::Program build(const cl::Context& context, const cl::Device& device) {
     std::vector<std::string> names;
     std::vector<cl::Program> headers;
     for (const auto& entry : std::filesystem::directory_iterator(root / "kernels/vndf")) {
+        if (entry.path().extension() != ".h") continue;
         names.push_back("vndf/" + entry.path().filename().string());
         headers.emplace_back(context, read(entry.path()));
     }

@@ -12,6 +12,7 @@
 
 #include "reference/distribution.h"
 #include "reference/beckmann_maps.h"
+#include "reference/conic_maps.h"
 #include "reference/ggx_maps.h"
 #include "reference/reference.h"
 #include "registry.h"
@@ -138,6 +139,7 @@ std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 
     if (sampler.arguments == "ALPHA_U") return {l.ax, l.ay, u1, u2};
     const double x = s * std::cos(l.phi), y = s * std::sin(l.phi), z = l.cos_theta;
     if (sampler.arguments == "WO_ALPHA_U") return {x, y, z, l.ax, l.ay, u1, u2};
+    if (sampler.arguments == "WO_ALPHA1_U") return {x, y, z, l.ax, u1, u2};
     // The frame turned by c = 0.6 about y: z -> n.
     return {0.6 * x - 0.8 * z, y, 0.8 * x + 0.6 * z, -0.8, 0, 0.6, l.ax, u1, u2};
 }
@@ -156,7 +158,8 @@ std::vector<Lobe> lobes(const Function& sampler) {
     for (const auto& a : alphas)
         for (const double c : {1., 0.5, 1e-3, -0.5}) {
             if (c < 0 && (sampler.domain == Domain::upper || sampler.arguments == "ALPHA_U")) continue;
-            if (sampler.arguments == "WO_N_ALPHA1_U" && a[0] != a[1]) continue;
+            const bool one = sampler.arguments == "WO_N_ALPHA1_U" || sampler.arguments == "WO_ALPHA1_U";
+            if (one && a[0] != a[1]) continue;
             all.push_back({c, 0.7, a[0], a[1]});
         }
     return all;
@@ -344,6 +347,8 @@ TEST_CASE("the density of a sample is the inverse of its map's Jacobian") {
                     one(pushforward(ggx_heitz2018<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_dupuy2023<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_eto2023<D2>, wo, z, a[0], a[1], u1, u2));
+                    one(pushforward(ggx_eto2023_polygon<D2>, wo, z, a[0], a[1], u1, u2));
+                    one(pushforward(ggx_conic2026<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_benyoub2024<D2>, wo, n, a[0], a[0], u1, u2));
                     one(pushforward(beckmann_jakob2014<D2>, wo, z, a[0], a[1], u1, u2));
                     one(pushforward(ggx_walter2007<D2>, wo, z, a[0], a[1], u1, u2));
@@ -376,6 +381,15 @@ TEST_CASE("the three parts of the 2014 Beckmann map add up to its density") {
     CHECK(at(centre) == Catch::Approx(2).epsilon(1e-10));
 }
 
+namespace {
+
+// Where a density takes the direction among the scalars of its sampler.
+std::size_t direction_at(const Function& sampler) {
+    return sampler.arguments == "ALPHA_U" ? 0 : sampler.arguments == "WO_N_ALPHA1_U" ? 6 : 3;
+}
+
+}  // namespace
+
 TEST_CASE("the density of a sample is the registered density there") {
     for (const Function* f : samplers()) {
         if (f->method == Method::approximate) continue;
@@ -384,8 +398,8 @@ TEST_CASE("the density of a sample is the registered density there") {
                 const auto d = draw(*f, l, i);
                 auto in = scalars(*f, l);
                 in.resize(in.size() - 2);
-                const std::size_t at = f->arguments == "ALPHA_U" ? 0 : f->arguments == "WO_ALPHA_U" ? 3 : 6;
-                in.insert(in.begin() + static_cast<long>(at), d.begin(), d.begin() + 3);
+                if (f->arguments == "WO_ALPHA1_U") in.push_back(in.back());  // the density takes two
+                in.insert(in.begin() + static_cast<long>(direction_at(*f)), d.begin(), d.begin() + 3);
                 CAPTURE(f->name, l, i);
                 // Small alpha and wi: the rounding of d, 1e-16 / alpha, is felt; Beckmann behind: q times more.
                 CHECK(evaluate(f->density, in) ==
@@ -404,8 +418,9 @@ TEST_CASE("the rule integrates each registered density to 1") {
             const auto in = scalars(*f, l);
             const auto rule = Distribution(f->name, in.data()).rule();
             const auto density = reference::find_evaluation<double>(f->density);
-            const std::size_t at = f->arguments == "ALPHA_U" ? 0 : f->arguments == "WO_ALPHA_U" ? 3 : 6;
+            const std::size_t at = direction_at(*f);
             std::vector<double> arguments(in.begin(), in.end() - 2);
+            if (f->arguments == "WO_ALPHA1_U") arguments.push_back(arguments.back());
             arguments.insert(arguments.begin() + static_cast<long>(at), 3, 0.0);
             double total = 0, probability = 0;
             for (std::size_t i = 0; i < rule.size(); ++i) {
@@ -438,7 +453,7 @@ TEST_CASE("moments agree with the closed forms of the hemisphere and of the Gaus
         // Beckmann slopes, alpha = 0.7: E[x], E[x^2], E[y^2] by the rule.
         const double alpha = 0.7, beckmann_in[] = {s, 0, c, alpha, alpha, 0.5, 0.5};
         if (c == 1 || c < 0) continue;
-        const auto rule = Distribution("vndf_beckmann_sample_wm_jakob2014", beckmann_in).rule(true);
+        const auto rule = Distribution("vndf_beckmann_sample_wm_jakob2014", beckmann_in).rule(1);
         double x1 = 0, x2 = 0, y2 = 0;
         for (std::size_t i = 0; i < rule.size(); ++i) {
             const double x = -rule.x[i] / rule.z[i], y = rule.y[i] / rule.z[i];
@@ -736,7 +751,7 @@ TEST_CASE("every sampler is finite, unit and above the horizon over the hard gri
 
 TEST_CASE("the cap's margin tells inside from outside") {
     const auto margin = [](const std::vector<double>& in) {
-        return reference::cap_margin(in.data(), Precision::f32);
+        return reference::cap_margin("vndf_ggx_pdf_wi_eto2023", in.data(), Precision::f32);
     };
     const auto pdf = [](const std::vector<double>& in) { return evaluate("vndf_ggx_pdf_wi_eto2023", in); };
     const auto with = [&](const std::array<double, 4>& wi) {

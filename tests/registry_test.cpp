@@ -13,6 +13,7 @@ using Names = std::vector<std::string>;
 TEST_CASE("a function takes the scalars that its arguments stand for, in their order") {
     const std::map<std::string, Names> scalars = {
         {"WO_ALPHA_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
+        {"WO_ALPHA1_U", {"wo_x", "wo_y", "wo_z", "alpha", "u1", "u2"}},
         {"WO_N_ALPHA1_U", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "alpha", "u1", "u2"}},
         {"ALPHA_U", {"alpha_x", "alpha_y", "u1", "u2"}},
         {"WM_ALPHA", {"wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
@@ -43,6 +44,7 @@ TEST_CASE("a function returns a direction or a value, and with_pdf a density beh
         Names expected = {"value"};
         if (f.result == "WM") expected = {"wm_x", "wm_y", "wm_z"};
         if (f.result == "WI") expected = {"wi_x", "wi_y", "wi_z"};
+        if (f.result == "U") expected = {"u1", "u2"};
         if (f.with_pdf) expected.push_back("pdf");
         CHECK(f.outputs == expected);
         CHECK(f.name.ends_with("_with_pdf") == f.with_pdf);
@@ -65,8 +67,8 @@ TEST_CASE("every sampler is followed by its with_pdf form, and its density is a 
         CHECK(f.p99_back >= f.p99_front);
         ++samplers;
     }
-    CHECK(samplers == 11);
-    CHECK(functions().size() == 2 * samplers + 32);
+    CHECK(samplers == 14);
+    CHECK(functions().size() == 2 * samplers + 37);
 }
 
 TEST_CASE("a function is found by its exact name alone") {

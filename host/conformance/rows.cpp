@@ -52,18 +52,21 @@ double beckmann_exponent(const Direction& m, std::array<double, 2> alpha) {
 }
 
 bool at_edge(const Function& density, const double* row, runtime::Real real) {
-    return density.name == "vndf_ggx_pdf_wi_eto2023" &&
-           std::abs(reference::cap_margin(row, precision(real))) <= 64;
+    return std::abs(reference::cap_margin(density.name, row, precision(real))) <= 64;
 }
 
 namespace {
 
-// The Euclidean size of output `output` of a - b, or of all of them.
+// The Euclidean size of output `output` of a - b, or of all of them; an azimuth u1 counts modulo 1.
 double distance(const Function& function, const std::array<double, 4>& a, const std::array<double, 4>& b,
                 int output) {
     if (output >= 0) return std::abs(a[output] - b[output]);
     double size = 0;
-    for (std::size_t k = 0; k < function.outputs.size(); ++k) size = std::hypot(size, a[k] - b[k]);
+    for (std::size_t k = 0; k < function.outputs.size(); ++k) {
+        const double difference = a[k] - b[k];
+        size = std::hypot(size,
+                          function.outputs[k] == "u1" ? difference - std::nearbyint(difference) : difference);
+    }
     return size;
 }
 

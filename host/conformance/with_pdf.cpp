@@ -24,7 +24,9 @@ Table density_inputs(const Function& sampler, const Function& density, const Tab
                      const Columns& results) {
     Table inputs;
     for (const std::string& name : density.inputs) {
-        const int in = column(sampler, name);
+        // alpha_x and alpha_y of a density at the results of a sampler of one alpha.
+        const int in = column(sampler, name) < 0 && name.starts_with("alpha_") ? column(sampler, "alpha")
+                                                                               : column(sampler, name);
         const auto out =
             std::find(sampler.outputs.begin(), sampler.outputs.end(), name) - sampler.outputs.begin();
         inputs.columns.push_back(in >= 0 ? table.columns[in] : results.at(out));

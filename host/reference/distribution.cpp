@@ -15,6 +15,8 @@ namespace {
 struct Known {
     std::string_view sampler;
     bool beckmann, walter, world, reflected;
+    enum { plain, polygon, conic } support = plain;
+    bool one_alpha = world;
 };
 constexpr Known known[] = {
     {"vndf_ggx_sample_wm_heitz_deon2014", false, false, false, false},
@@ -24,6 +26,9 @@ constexpr Known known[] = {
     {"vndf_ggx_sample_wm_dupuy2023", false, false, false, false},
     {"vndf_ggx_sample_wm_benyoub2024", false, false, true, false},
     {"vndf_ggx_sample_wi_eto2023", false, false, false, true},
+    {"vndf_ggx_sample_wi_eto2023_polygon", false, false, false, true, Known::polygon},
+    {"vndf_ggx_sample_wi_conic2026", false, false, false, true, Known::conic},
+    {"vndf_ggx_sample_wi_conic2026_isotropic", false, false, false, true, Known::conic, true},
     {"vndf_ggx_sample_wm_walter2007", false, true, false, false},
     {"vndf_beckmann_sample_wm_heitz_deon2014", true, false, false, false},
     {"vndf_beckmann_sample_wm_jakob2014", true, false, false, false},
@@ -49,7 +54,7 @@ Distribution::Distribution(std::string_view sampler, const double* in, Precision
                                  [&](const Known& k) { return k.sampler == sampler; });
     if (at == std::end(known)) throw std::invalid_argument("no distribution for " + std::string(sampler));
     sampler_ = at->sampler;
-    in_.assign(in, in + (at->walter ? 4 : at->world ? 9 : 7));
+    in_.assign(in, in + (at->walter ? 4 : at->world ? 9 : at->one_alpha ? 6 : 7));
     reflected_ = at->reflected;
     world_ = at->world;
 
@@ -58,7 +63,7 @@ Distribution::Distribution(std::string_view sampler, const double* in, Precision
         return std::max(a, precision == Precision::f32 ? double(1e-8f) : 1e-8);
     };
     alpha_x_ = raised(alpha[0]);
-    alpha_y_ = raised(alpha[at->world ? 0 : 1]);
+    alpha_y_ = raised(alpha[at->one_alpha ? 0 : 1]);
 
     // The plain NDF times the cosine is what a view along the normal sees.
     Vec3<double> wo = at->walter ? Vec3<double>{0, 0, 1} : normalised<double>({in[0], in[1], in[2]});
@@ -74,17 +79,105 @@ Distribution::Distribution(std::string_view sampler, const double* in, Precision
     ex_ = v.ex, ey_ = v.ey, length_ = v.length, sin_ = v.sin_theta, cos_ = v.cos_theta;
     sigma_ = std::pow(std::sin(v.nu / 2), 2);
     tan_half_ = std::sin(v.theta / 2) / std::sin(v.nu / 2);
-    kind_ = at->beckmann ? Kind::beckmann : reflected_ && wo.z > 0 ? Kind::bounded : Kind::ggx;
+    kind_ = at->beckmann                  ? Kind::beckmann
+            : !reflected_ || !(wo.z > 0)  ? Kind::ggx
+            : at->support == Known::conic ? Kind::conic
+                                          : Kind::bounded;
     const Slopes<double> s = beckmann_slopes(v.sin_theta, v.cos_theta);
     a_ = s.a, weight_ = s.weight;
-    const Bound<double> b = bound(alpha_x_, alpha_y_, hypotenuse(wo.x, wo.y), wo.z);
-    k_ = b.k, gap_ = b.gap, cap_ = (1 + k_ * cos_) / 2;
+    const Bound<double> b = at->support == Known::polygon ? polygon_bound(v, wo) : bound(v, wo);
+    k_ = b.k, gap_ = b.gap, cap_ = b.up / 2;
+    if (kind_ == Kind::conic) {
+        k_ = 0, cap_ = visible_area();
+        tabulate_azimuths();
+    }
+}
+
+// The area inside the horizon's curve, seen along the stretched wo, in units of pi. The normals that reflect to the horizon
+// are the half vectors g of v and (cos phi, sin phi, 0), stretched back:
+//     length area = 1 / (2 pi) * integral of v . (g x g') / |g|^2 dphi.
+// |g| has its least values, as narrow as alpha z, near -wo: azimuths are counted from there, and panels graded towards
+// them.
+double Distribution::visible_area() const {
+    const double x = wo_.x, y = wo_.y, z = wo_.z, x2 = alpha_x_ * alpha_x_, y2 = alpha_y_ * alpha_y_;
+    const double sine = std::sqrt(x * x + y * y), less = z * z / (1 + sine), opposite = std::atan2(-y, -x);
+    struct Half {
+        double c, s;  // of the azimuth
+        double x, y;  // wo + (c, s, 0)
+    };
+    const auto half_at = [&](double turn) {
+        const double middle = opposite + turn / 2, chord = 2 * std::sin(turn / 2);
+        return Half{std::cos(opposite + turn), std::sin(opposite + turn),
+                    less * std::cos(opposite) - chord * std::sin(middle),
+                    less * std::sin(opposite) + chord * std::cos(middle)};
+    };
+    // A least value is where the derivative changes its sign, between points graded towards -wo and the axes, where two
+    // can be close together.
+    const auto rising = [&](double turn) {
+        const Half h = half_at(turn);
+        return h.y / y2 * h.c - h.x / x2 * h.s > 0;
+    };
+    const auto once = [](double turn) { return turn - 2 * pi_d * std::round(turn / (2 * pi_d)); };
+    const auto grade = [&](std::vector<double>& into, double at) {
+        into.push_back(once(at));
+        for (double d = pi_d / 2; d > 1e-17; d /= 2) into.insert(into.end(), {once(at - d), once(at + d)});
+    };
+    std::vector<double> points{-pi_d, pi_d};
+    grade(points, 0);
+    for (int i = 0; i < 4; ++i) grade(points, i * pi_d / 2 - opposite);
+    std::sort(points.begin(), points.end());
+    std::vector<double> breaks = points;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        double low = points[i], high = points[i + 1];
+        if (rising(low) || !rising(high)) continue;
+        for (int step = 0; step < 60; ++step) (rising((low + high) / 2) ? high : low) = (low + high) / 2;
+        grade(breaks, low);
+    }
+    std::sort(breaks.begin(), breaks.end());
+    double area = 0;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        if (!(breaks[i] < breaks[i + 1])) continue;
+        gauss<10>(breaks[i], breaks[i + 1], [&](double turn, double weight) {
+            const Half h = half_at(turn);
+            const double gx = h.x / alpha_x_, gy = h.y / alpha_y_, half_sine = std::sin(turn / 2);
+            const double along = less + 2 * sine * half_sine * half_sine - x2 * x * h.c - y2 * y * h.s;
+            area += weight * along / (alpha_x_ * alpha_y_ * (gx * gx + gy * gy + z * z));
+        });
+    }
+    return z * area / (2 * pi_d) / length_;
+}
+
+// The distribution function of the stretched azimuth, from the closed integral over the polar angle.
+void Distribution::tabulate_azimuths() {
+    const double start = -pi_d;
+    std::vector<double> edges{start, start + 2 * pi_d};
+    for (const double at : azimuth_breaks())
+        if (at > start && at < start + 2 * pi_d) edges.push_back(at);
+    std::sort(edges.begin(), edges.end());
+    const std::vector<double> whole{std::numeric_limits<double>::infinity()};
+    const auto density = [&](double phi) {
+        double mass;
+        cumulative(phi, whole, &mass);
+        return mass;
+    };
+    azimuth_ = {start}, mass_ = {0}, slope_ = {density(start)};
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+        constexpr int parts = 8;
+        for (int j = 0; j < parts && edges[i] < edges[i + 1]; ++j) {
+            const double a = edges[i] + (edges[i + 1] - edges[i]) * j / parts,
+                         b = edges[i] + (edges[i + 1] - edges[i]) * (j + 1) / parts;
+            double sum = mass_.back();
+            gauss<10>(a, b, [&](double phi, double weight) { sum += weight * density(phi); });
+            azimuth_.push_back(b), mass_.push_back(sum), slope_.push_back(density(b));
+        }
+    }
 }
 
 // --- Pivots ---
 
 // GGX: F(beta) and the semicircle's distribution function of t. Beckmann: the distribution functions of the two
-// slopes. Bounded: azimuth and height of the stretched reflection, uniform on its cap.
+// slopes. Bounded: azimuth and height of the stretched reflection, uniform on its cap. Conic: the distribution functions
+// of the stretched azimuth and, given it, of the polar angle.
 template <class T, Distribution::Kind kind>
 void Distribution::pivots_of(std::size_t n, const T* x, const T* y, const T* z, double* p1,
                              double* p2) const {
@@ -99,6 +192,14 @@ void Distribution::pivots_of(std::size_t n, const T* x, const T* y, const T* z, 
             const double turn = std::atan2(oy, ox) / (2 * pi_d);
             p1[i] = clip(turn < 0 ? turn + 1 : turn);
             p2[i] = clip((1 + cos_ - s * gz) / (2 * cap_));
+        } else if constexpr (kind == Kind::conic) {
+            const double phi = std::atan2(gy, gx);
+            const auto above = std::upper_bound(azimuth_.begin() + 1, azimuth_.end() - 1, phi);
+            const std::size_t j = static_cast<std::size_t>(above - azimuth_.begin()) - 1;
+            const double h = azimuth_[j + 1] - azimuth_[j], t = (phi - azimuth_[j]) / h, r = 1 - t;
+            p1[i] = clip(mass_[j] * r * r * (1 + 2 * t) + mass_[j + 1] * t * t * (1 + 2 * r) +
+                         h * t * r * (slope_[j] * r - slope_[j + 1] * t));
+            p2[i] = clip(share_below(phi, std::sqrt(gx * gx + gy * gy) / gz));
         } else {
             const double ge = gx * ex_ + gy * ey_, gp = gy * ex_ - gx * ey_;
             if constexpr (kind == Kind::ggx) {
@@ -137,6 +238,8 @@ void Distribution::pivots(std::size_t n, const T* x, const T* y, const T* z, dou
             return pivots_of<T, Kind::ggx>(n, x, y, z, p1, p2);
         case Kind::bounded:
             return pivots_of<T, Kind::bounded>(n, x, y, z, p1, p2);
+        case Kind::conic:
+            return pivots_of<T, Kind::conic>(n, x, y, z, p1, p2);
         case Kind::beckmann:
             return pivots_of<T, Kind::beckmann>(n, x, y, z, p1, p2);
     }
@@ -163,8 +266,9 @@ double Distribution::pivot_rounding() const {
                 d[i] = exact;
                 for (int j = 0; j < 2; ++j) {
                     const double change = std::abs(p[j] - q[j]);
-                    worst = std::max(
-                        worst, kind_ == Kind::bounded && j == 0 ? std::min(change, 1 - change) : change);
+                    worst = std::max(worst, (kind_ == Kind::bounded || kind_ == Kind::conic) && j == 0
+                                                ? std::min(change, 1 - change)
+                                                : change);
                 }
             }
         }

@@ -69,24 +69,32 @@ class Distribution {
     // Relative error below 1e-8 of the largest moment of its order, for alpha in [1e-4, 2].
     Moments moments() const;
 
-    // A rule that integrates the density of the directions to 1e-7 (fine: 1e-10).
-    QuadratureRule rule(bool fine = false) const;
+    // A rule that integrates the density of the directions to 1e-7; of fineness 1 to 1e-9, of fineness 2 (GGX) to 1e-12.
+    QuadratureRule rule(int fineness = 0) const;
 
     // The largest change of a pivot that rounding one component of a typical direction by 2^-24 can make, an
     // estimate from the lobe alone: pivot tests of float samples make sense where it is below about 1e-3.
     double pivot_rounding() const;
 
+    // The probability that a visible normal reflects wo above the horizon, by quadrature along the horizon's curve; of the
+    // samplers that give no others. 1 behind the surface.
+    double reflection_probability() const { return kind_ == Kind::conic ? cap_ / sigma_ : 1; }
+
   private:
-    enum class Kind { ggx, bounded, beckmann };  // bounded: GGX reflections from the front, on their own cap
+    // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
+    enum class Kind { ggx, bounded, conic, beckmann };
     struct Range;
     struct Node;
 
     Vec3d half(double x, double y, double z) const;
     double normaliser() const;
+    double visible_area() const;
+    void tabulate_azimuths();
+    double share_below(double phi, double tangent) const;
     Range range(double phi) const;
     void cumulative(double phi, const std::vector<double>& tan_theta, double* mass) const;
     void add(const Node& node, QuadratureRule& rule) const;
-    void add_polar_nodes(QuadratureRule& rule, bool fine) const;
+    void add_polar_nodes(QuadratureRule& rule, int fineness) const;
     void add_slope_nodes(QuadratureRule& rule, bool fine) const;
     std::vector<double> azimuth_breaks() const;
     template <class T, Kind kind>
@@ -108,7 +116,9 @@ class Distribution {
     double tan_half_;    // tan(theta / 2)
     double a_, weight_;  // Beckmann: cot(theta) and N(a)
     double k_, gap_;     // bounded: o_z > -k cos, 1 - k
-    double cap_;         // bounded: (1 + k cos) / 2
+    double cap_;         // bounded: (1 + k cos) / 2; conic: that of what is above the horizon
+    // Conic: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
+    std::vector<double> azimuth_, mass_, slope_;
 };
 
 }  // namespace vndf::reference

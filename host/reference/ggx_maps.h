@@ -143,25 +143,63 @@ Cap<R> whole_cap(const View<R>& v) {
 }
 
 // The bound of Eto & Tokuyoshi: only reflections with o_z > -k cos(theta), where k = (1 - a^2) s^2 /
-// (s^2 + a^2 z^2) with s = 1 + sqrt(1 - z^2) of the unit wo. gap_of_k: 1 - k.
+// (s^2 + a^2 z^2) with s = 1 + sqrt(1 - z^2) of the unit wo. gap: 1 - k; up: 1 + k cos(theta).
 template <class R>
 struct Bound {
-    R k, gap;
+    R k, gap, up;
 };
 template <class R>
-Bound<R> bound(const R& alpha_x, const R& alpha_y, const R& sine, const R& z) {
-    R a = alpha_x < alpha_y ? alpha_x : alpha_y;
+Bound<R> bound(const View<R>& v, const Vec3<R>& wo) {
+    R a = v.alpha_x < v.alpha_y ? v.alpha_x : v.alpha_y;
     if (a > 1) a = R(1);
-    const R s2 = squared(R(1 + sine)), a2 = a * a, z2 = z * z, below = s2 + a2 * z2;
-    return {(1 - a) * (1 + a) * s2 / below, a2 * (s2 + z2) / below};
+    const R sine = hypotenuse(wo.x, wo.y);
+    const R s2 = squared(R(1 + sine)), a2 = a * a, z2 = squared(wo.z), below = s2 + a2 * z2;
+    const R k = (1 - a) * (1 + a) * s2 / below;
+    return {k, a2 * (s2 + z2) / below, 1 + k * v.cos_theta};
 }
+
+// The polygon bound: 1 - k = 1 / R, R the largest (X / alpha_x^2 + Y / alpha_y^2 + z^2) / (X + Y + z^2) over the
+// squares X, Y >= 0 with (1 - sin)^2 <= X + Y <= (1 + sin)^2 and Y <= (1 + |wo.y|)^2, y the axis of the smaller alpha: a
+// quotient of linear functions is largest at a vertex. With N the numerator,
+// 1 + k cos(theta) = ((X / alpha_x^2 + Y / alpha_y^2)(1 + cos) + (z^2 - X - Y) + (1 - cos)(X + Y)) / N.
 template <class R>
-Cap<R> bounded_cap(const View<R>& v, const Vec3<R>& wo) {
+Bound<R> polygon_bound(const View<R>& v, const Vec3<R>& view) {
+    using std::abs, std::sin;
+    const Vec3<R> wo = normalised(view);
+    const bool swap = v.alpha_x < v.alpha_y;
+    const R &low = swap ? v.alpha_x : v.alpha_y, &high = swap ? v.alpha_y : v.alpha_x;
+    const R y = abs(swap ? wo.x : wo.y), sine = hypotenuse(wo.x, wo.y), z2 = squared(wo.z);
+    const R less = z2 / (1 + sine);  // 1 - sin
+    const R least = squared(less), most = squared(R(1 + sine)), side = squared(R(1 + y));
+    const R up = 2 * squared(R(sin(v.nu / 2))), down = 2 * squared(R(sin(v.theta / 2)));
+    const R flat = 2 * sine;  // z^2 - least = flat (1 - sin), z^2 - most = -flat (1 + sin)
+    struct Vertex {
+        R x, y, above;  // above: z^2 - x - y
+    };
+    const Vertex vertices[] = {{R(0), least, flat * less},
+                               {least, R(0), flat * less},
+                               {most, R(0), -flat * (1 + sine)},
+                               {most - side, side, -flat * (1 + sine)},
+                               {R(0), side, z2 - side}};
+    Bound<R> best{R(1), R(0), R(0)};
+    bool first = true;
+    for (const Vertex& w : vertices) {
+        if (w.x < 0) continue;
+        const R scaled = w.x * squared(R(low / high)) + w.y, numerator = scaled + low * low * z2;
+        const R gap = low * low * (w.x + w.y + z2) / numerator;
+        if (!first && !(gap < best.gap)) continue;
+        best = {1 - gap, gap, (scaled * up + low * low * (w.above + down * (w.x + w.y))) / numerator};
+        first = false;
+    }
+    return best;
+}
+
+template <class R>
+Cap<R> bounded_cap(const View<R>& v, const Bound<R>& b) {
     using std::atan2, std::sin, std::sqrt;
-    const Bound<R> b = bound(v.alpha_x, v.alpha_y, hypotenuse(wo.x, wo.y), wo.z);
     // tan^2(half) = (1 + k c) / (1 - k c); the directions at height -c and -k c differ by the angle 2 gap.
     const R one_minus_c = 2 * squared(R(sin(v.theta / 2)));
-    const R up = 1 + b.k * v.cos_theta, down = b.gap + b.k * one_minus_c;
+    const R &up = b.up, down = b.gap + b.k * one_minus_c;
     const R half = atan2(R(sqrt(up)), R(sqrt(down))), co_half = atan2(R(sqrt(down)), R(sqrt(up)));
     // cos(theta) - k cos(theta) = 2 sin(co_half + theta / 2) sin(gap)
     const R sin_gap = b.gap * v.cos_theta / (2 * sin(co_half + v.theta / 2));
@@ -204,22 +242,36 @@ Vec3<R> reflect(const Vec3<R>& wo, const Vec3<R>& wm) {
     return {twice * wm.x - wo.x, twice * wm.y - wo.y, twice * wm.z - wo.z};
 }
 
-// The same on the bounded cap (the whole one behind the surface), reflected. With m of the stretched frame
-// the density, uniform on the cap, picks up |A m|^3 / det A of unstretching, 4 cosine of the stretched
-// reflection and 1 / (4 wo . wm) of the real one, wo . wm = |stretched wo| cosine / |A m|.
+// The reflection of wo about the unstretched m, given sigma of the normals that are sampled. The density of stretched
+// reflections is (s . m) / sigma up to a constant; it picks up |A m|^3 / det A of unstretching and 1 / (4 wo . wm) of the
+// reflection, wo . wm = |stretched wo| (s . m) / |A m|.
 template <class R>
-Sample<R> ggx_eto2023(const Arguments<R>& in) {
+Sample<R> ggx_reflected(const Arguments<R>& in, const View<R>& v, const StretchedNormal<R>& m,
+                        const R& sigma) {
+    const R gx = m.e * v.ex - m.p * v.ey, gy = m.e * v.ey + m.p * v.ex;
+    const R x = v.alpha_x * gx, y = v.alpha_y * gy, length = hypotenuse(hypotenuse(x, y), m.z);
+    const R length2 = squared(x) + squared(y) + squared(m.z);
+    return {reflect<R>(in.wo, {x / length, y / length, m.z / length}),
+            length2 / v.alpha_x * (length2 / v.alpha_y) / (4 * pi<R>() * sigma)};
+}
+
+// The cap under a bound (the whole one behind the surface), reflected.
+template <class R, Bound<R> (*bound)(const View<R>&, const Vec3<R>&)>
+Sample<R> ggx_bounded(const Arguments<R>& in) {
     using std::sin;
     const View<R> v = view(in);
     if (nothing_visible(v)) return undefined<R>(reflect<R>(in.wo, {v.ex, v.ey, R(0)}));
-    const Cap<R> cap = v.up > 0 ? bounded_cap(v, in.wo) : whole_cap(v);
+    const Cap<R> cap = v.up > 0 ? bounded_cap(v, bound(v, in.wo)) : whole_cap(v);
     const StretchedNormal<R> m = half_vector<R>(v, cap, 2 * pi<R>() * (in.u1 - Real<R>(0.5)), in.u2, in.v2);
-    const Vec3<R> wm = ggx_unstretch(v, m).direction;
-    const R gx = m.e * v.ex - m.p * v.ey, gy = m.e * v.ey + m.p * v.ex;
-    const R length2 = squared(R(v.alpha_x * gx)) + squared(R(v.alpha_y * gy)) + squared(m.z);
-    const R pdf =
-        length2 / v.alpha_x * (length2 / v.alpha_y) / (4 * pi<R>() * squared(R(sin(cap.half))) * v.length);
-    return {reflect(in.wo, wm), pdf};
+    return ggx_reflected<R>(in, v, m, squared(R(sin(cap.half))) * v.length);
+}
+template <class R>
+Sample<R> ggx_eto2023(const Arguments<R>& in) {
+    return ggx_bounded<R, bound<R>>(in);
+}
+template <class R>
+Sample<R> ggx_eto2023_polygon(const Arguments<R>& in) {
+    return ggx_bounded<R, polygon_bound<R>>(in);
 }
 
 // The frame (t1, t2, n) in which the world-space listing works: z and n mirrored onto each other. t1 and t2

@@ -61,7 +61,7 @@ Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
 
 // What the density is divided by. (Beckmann behind the surface: without e^(-a^2).)
 double Distribution::normaliser() const {
-    if (kind_ == Kind::bounded) return cap_;
+    if (kind_ == Kind::bounded || kind_ == Kind::conic) return cap_;
     if (kind_ == Kind::ggx) return sigma_;
     return a_ > 1e6 ? 1 : sin_ * weight_ / 2;
 }
@@ -70,14 +70,31 @@ Distribution::Range Distribution::range(double phi) const {
     const double infinity = std::numeric_limits<double>::infinity();
     const double c = std::cos(phi), s = std::sin(phi);
     const double cos_turn = c * ex_ + s * ey_, turn = (s * ex_ - c * ey_) / cos_turn, slope = sin_ * cos_turn;
-    if (kind_ == Kind::bounded) {
-        // 2 (slope r + cos) / (1 + r^2) > (1 - k) cos: r below the positive root
-        const double root = std::sqrt(slope * slope + gap_ * (1 + k_) * cos_ * cos_);
-        const double hi = slope > 0 ? (slope + root) / (gap_ * cos_) : (1 + k_) * cos_ / (root - slope);
+    if (kind_ == Kind::bounded || kind_ == Kind::conic) {
+        // 2 (slope r + cos) > (1 - k) cos (1 + r^2), or cos (1 + |alpha r|^2): r below the positive root
+        const double gap =
+            kind_ == Kind::bounded ? gap_ : alpha_x_ * c * (alpha_x_ * c) + alpha_y_ * s * (alpha_y_ * s);
+        const double root = std::sqrt(slope * slope + gap * (1 + k_) * cos_ * cos_);
+        const double hi = slope > 0 ? (slope + root) / (gap * cos_) : (1 + k_) * cos_ / (root - slope);
         return {0, hi, slope, turn};
     }
     if (cos_ >= 0) return {0, slope < 0 ? cos_ / -slope : infinity, slope, turn};
     return {slope > 0 ? -cos_ / slope : infinity, infinity, slope, turn};
+}
+
+// The integral of the GGX density over r from 0, but for its normaliser, at a stretched azimuth.
+static double ggx_polar_mass(double cosine, double slope, double r) {
+    const double part = r < 1e100 ? r / (1 + r * r) : 0;
+    return (cosine * (r < 1e100 ? part * r : 1) +
+            slope * (r < 1e-3 ? r * r * r * (2. / 3 - 0.8 * r * r) : std::atan(r) - part)) /
+           2;
+}
+
+// Conic: the part of the mass at this stretched azimuth with stretched slopes shorter than `slope`.
+double Distribution::share_below(double phi, double tangent) const {
+    const Range in = range(phi);
+    const double whole = ggx_polar_mass(cos_, in.slope, in.hi);
+    return whole > 0 ? ggx_polar_mass(cos_, in.slope, std::min(tangent, in.hi)) / whole : 0;
 }
 
 // Per unit of phi, the mass at polar angles below each of the given ones (ascending).
@@ -89,10 +106,7 @@ void Distribution::cumulative(double phi, const std::vector<double>& tan_theta, 
     // The integral from 0 to r, or behind the surface from r to infinity, where nothing cancels.
     const auto ggx = [&](double r) {
         if (behind) return (cos_ / (1 + r * r) + in.slope * (std::atan(1 / r) + r / (1 + r * r))) / 2;
-        const double part = r < 1e100 ? r / (1 + r * r) : 0;
-        return (cos_ * (r < 1e100 ? part * r : 1) +
-                in.slope * (r < 1e-3 ? r * r * r * (2. / 3 - 0.8 * r * r) : std::atan(r) - part)) /
-               2;
+        return ggx_polar_mass(cos_, in.slope, r);
     };
     const auto beckmann = [&](double r) {
         if (behind) {

@@ -33,8 +33,10 @@ void Distribution::add(const Node& node, QuadratureRule& rule) const {
 
 // GGX: polar slopes, the length by its logarithm, in which both the density and unstretching vary over a distance
 // of order 1; the azimuth between its breaks.
-void Distribution::add_polar_nodes(QuadratureRule& rule, bool fine) const {
-    const double tail = fine ? 26 : 20, head = fine ? 13 : 10, width = fine ? 2 : 3;
+void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
+    const bool fine = fineness > 0;
+    const double tail = fine ? 26 : 20, head = fine ? 13 : 10, width = fineness > 1 ? 1.2 : fine ? 2 : 3;
+    const double step = fineness > 1 ? 0.3 : fine ? 0.42 : 0.55, reach = fineness > 1 ? 30 : fine ? 23 : 18;
     const double scale = 1 / (pi_d * normaliser());
     std::vector<double> breaks;
     const double e = std::atan2(ey_, ex_);
@@ -44,21 +46,20 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, bool fine) const {
     std::sort(breaks.begin(), breaks.end());
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         if (!(breaks[i + 1] - breaks[i] > 1e-13)) continue;
-        logistic(breaks[i], breaks[i + 1], fine ? 0.42 : 0.55, fine ? 23 : 18,
-                 [&](double phi, double weight) {
-                     const Range in = range(phi);
-                     if (!(weight > 0) || !(in.lo < in.hi) || !(in.lo < 1e100)) return;
-                     const double c = std::cos(phi), s = std::sin(phi);
-                     const double lo = in.lo > 0 ? std::log(in.lo) : std::min(0., std::log(in.hi)) - head;
-                     const double hi = std::min(std::log(in.hi), std::max(0., lo) + tail);
-                     const auto add_node = [&](double log_r, double w) {
-                         const double r = std::exp(log_r), q = 1 + r * r;
-                         const double area = weight * w * r * r;
-                         const double cosine = in.lo > 0 ? in.slope * (r - in.lo) : in.slope * r + cos_;
-                         add({r * c, r * s, area, area * scale * std::max(0., cosine) / (q * q)}, rule);
-                     };
-                     panels<10>(lo, hi, width, add_node);
-                 });
+        logistic(breaks[i], breaks[i + 1], step, reach, [&](double phi, double weight) {
+            const Range in = range(phi);
+            if (!(weight > 0) || !(in.lo < in.hi) || !(in.lo < 1e100)) return;
+            const double c = std::cos(phi), s = std::sin(phi);
+            const double lo = in.lo > 0 ? std::log(in.lo) : std::min(0., std::log(in.hi)) - head;
+            const double hi = std::min(std::log(in.hi), std::max(0., lo) + tail);
+            const auto add_node = [&](double log_r, double w) {
+                const double r = std::exp(log_r), q = 1 + r * r;
+                const double area = weight * w * r * r;
+                const double cosine = in.lo > 0 ? in.slope * (r - in.lo) : in.slope * r + cos_;
+                add({r * c, r * s, area, area * scale * std::max(0., cosine) / (q * q)}, rule);
+            };
+            panels<10>(lo, hi, width, add_node);
+        });
     }
 }
 
@@ -80,17 +81,17 @@ void Distribution::add_slope_nodes(QuadratureRule& rule, bool fine) const {
     });
 }
 
-QuadratureRule Distribution::rule(bool fine) const {
+QuadratureRule Distribution::rule(int fineness) const {
     QuadratureRule rule;
     if (kind_ == Kind::beckmann)
-        add_slope_nodes(rule, fine);
+        add_slope_nodes(rule, fineness > 0);
     else
-        add_polar_nodes(rule, fine);
+        add_polar_nodes(rule, fineness);
     return rule;
 }
 
 Moments Distribution::moments() const {
-    const QuadratureRule nodes = rule(true);
+    const QuadratureRule nodes = rule(1);
     const Vec3d seen = sampler_.find("walter2007") != std::string::npos ? Vec3d{0, 0, 1}
                        : world_                                         ? Vec3d{in_[0], in_[1], in_[2]}
                                                                         : wo_;

@@ -39,9 +39,15 @@ Vec3<R> vec3(const R* in) {
     return {in[0], in[1], in[2]};
 }
 
-enum class Layout { wo_alpha_u, wo_n_alpha1_u, alpha_u };
+enum class Layout { wo_alpha_u, wo_alpha1_u, wo_n_alpha1_u, alpha_u };
+constexpr bool one_alpha(Layout layout) {
+    return layout == Layout::wo_alpha1_u || layout == Layout::wo_n_alpha1_u;
+}
+constexpr std::size_t first_alpha(Layout layout) {
+    return layout == Layout::alpha_u ? 0 : layout == Layout::wo_n_alpha1_u ? 6 : 3;
+}
 constexpr std::size_t scalars(Layout layout) {
-    return layout == Layout::wo_alpha_u ? 7 : layout == Layout::wo_n_alpha1_u ? 9 : 4;
+    return first_alpha(layout) + (one_alpha(layout) ? 1 : 2) + 2;
 }
 
 template <class R>
@@ -56,7 +62,7 @@ Arguments<R> arguments(Layout layout, const R* in, Precision precision) {
         in += 3;
     }
     a.alpha_x = clamped_alpha(*in++, precision);
-    a.alpha_y = layout == Layout::wo_n_alpha1_u ? a.alpha_x : clamped_alpha(*in++, precision);
+    a.alpha_y = one_alpha(layout) ? a.alpha_x : clamped_alpha(*in++, precision);
     a.u1 = clamped_u(in[0], precision);
     a.u2 = clamped_u(in[1], precision);
     a.v1 = 1 - a.u1;
@@ -94,7 +100,7 @@ double sampler_condition(const double* in, Precision precision) {
     D x[n];
     for (std::size_t i = 0; i < n; ++i) {
         // A clamped number varies as the one that stands for it.
-        const bool u = i + 2 >= n, alpha = !u && i >= (layout == Layout::wo_n_alpha1_u ? 6 : n - 4);
+        const bool u = i + 2 >= n, alpha = !u && i >= first_alpha(layout);
         x[i] = D::variable(u       ? clamped_u(in[i], precision)
                            : alpha ? clamped_alpha(in[i], precision)
                                    : in[i],
@@ -130,6 +136,9 @@ struct Entry {
     X(vndf_ggx_sample_wm_dupuy2023, ggx_dupuy2023, wo_alpha_u)                       \
     X(vndf_ggx_sample_wm_benyoub2024, ggx_benyoub2024, wo_n_alpha1_u)                \
     X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                           \
+    X(vndf_ggx_sample_wi_eto2023_polygon, ggx_eto2023_polygon, wo_alpha_u)           \
+    X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)            \
     X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                        \
     X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)   \
     X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)             \
@@ -215,11 +224,36 @@ struct Terms {
     static R pdf_wm_walter2007(Reader<R> in) { return ndf(in) * in.in[2]; }
 };
 
+template <class R, Bound<R> (*bound)(const View<R>&, const Vec3<R>&)>
+R ggx_pdf_wi_bounded_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), wi = in.vector();
+    const View<R> v = in.stretched(wo);
+    return wo.z > 0 ? ggx_pdf_wi_bounded(wo, wi, v, bound(v, wo), in.precision)
+                    : pdf_wi<Ggx, R>(wo, wi, v.alpha_x, v.alpha_y);
+}
 template <class R>
-R ggx_pdf_wi_eto2023_of(Reader<R> in) {
+R ggx_pdf_wi_conic2026_of(Reader<R> in) {
     const Vec3<R> wo = in.vector(), wi = in.vector();
     const R ax = in.alpha(), ay = in.alpha();
-    return ggx_pdf_wi_eto2023(wo, wi, ax, ay, in.precision);
+    return ggx_pdf_wi_conic2026(wo, wi, ax, ay);
+}
+template <class R>
+R ggx_sigma_visible_of(Reader<R> in) {
+    const Vec3<R> w = in.vector();
+    return sigma_visible(in.stretched(w));
+}
+template <class R>
+R ggx_reflection_probability_of(Reader<R> in) {
+    const Vec3<R> w = in.vector();
+    const View<R> v = in.stretched(w);
+    return v.up > 0 ? R(ggx_sigma_visible(v) / Ggx::sigma(v)) : R(1);
+}
+template <class R>
+void evaluate_inverse(const R* in, R* out, Precision precision) {
+    Reader<R> reader{in, precision};
+    const Vec3<R> wo = normalised(reader.vector()), wi = normalised(reader.vector());
+    const DiskPoint<R> u = ggx_invert_conic2026(wo, wi, reader.stretched(wo));
+    out[0] = u.u1, out[1] = std::clamp(u.u2, R(0), R(1));
 }
 // About n: what counts of wm and wo is their part along n and the rest.
 template <class R>
@@ -284,7 +318,12 @@ constexpr Entry<R> entries[] = {
     VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
 #undef VNDF_BOTH
 #undef VNDF_ENTRIES
-    {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_eto2023_of<R>>},
+    {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},
+    {"vndf_ggx_pdf_wi_eto2023_polygon", evaluate_term<R, ggx_pdf_wi_bounded_of<R, polygon_bound<R>>>},
+    {"vndf_ggx_pdf_wi_conic2026", evaluate_term<R, ggx_pdf_wi_conic2026_of<R>>},
+    {"vndf_ggx_sigma_visible", evaluate_term<R, ggx_sigma_visible_of<R>>},
+    {"vndf_ggx_reflection_probability", evaluate_term<R, ggx_reflection_probability_of<R>>},
+    {"vndf_ggx_invert_wi_conic2026", evaluate_inverse<R>},
     {"vndf_ggx_pdf_wm_benyoub2024", evaluate_term<R, ggx_pdf_wm_benyoub2024_of<R>>},
     {"vndf_ggx_slope_pdf", evaluate_term<R, of_cosine_x<R, ggx_slope_pdf<R>>>},
     {"vndf_ggx_slope_cdf", evaluate_term<R, of_cosine_x<R, ggx_slope_cdf<R>>>},
@@ -333,11 +372,14 @@ double condition(std::string_view sampler, const double* in, Precision precision
     return f(in, precision);
 }
 
-double cap_margin(const double* in, Precision precision) {
+double cap_margin(std::string_view density, const double* in, Precision precision) {
+    const bool polygon = density == "vndf_ggx_pdf_wi_eto2023_polygon";
     Reader<double> reader{in, precision};
     const Vec3<double> wo = reader.vector(), wi = reader.vector();
-    if (!(wo.z > 0)) return std::numeric_limits<double>::infinity();
-    const Margin<double> margin = eto_margin(wo, wi, reader.stretched(wo));
+    if (!(wo.z > 0) || (!polygon && density != "vndf_ggx_pdf_wi_eto2023"))
+        return std::numeric_limits<double>::infinity();
+    const View<double> v = reader.stretched(wo);
+    const Margin<double> margin = eto_margin(wo, wi, v, polygon ? polygon_bound(v, wo) : bound(v, wo));
     return margin.inside / (margin.per_unit * (precision == Precision::f32 ? 0x1p-24 : 0x1p-53));
 }
 

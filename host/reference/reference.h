@@ -38,10 +38,11 @@ ConditionFunction find_condition(std::string_view sampler);
 // The same by name; throws std::invalid_argument if `sampler` is no sampler.
 double condition(std::string_view sampler, const double* in, Precision precision);
 
-// How far inside its cap the direction wi lies for vndf_ggx_pdf_wi_eto2023, whose scalars `in` are:
+// How far inside its cap the direction wi lies for a density of a bounded cap, vndf_ggx_pdf_wi_eto2023 or
+// vndf_ggx_pdf_wi_eto2023_polygon, whose scalars `in` are:
 // o_z + k i_z in stretched space over the change of o_z that one unit in the last place of wi (2^-24 or
 // 2^-53) can make. The density is 0 below -8; a comparison should leave out -64 ... 64. Back-facing wo
-// have no bound beyond the horizon of normals: infinity.
-double cap_margin(const double* in, Precision precision);
+// have no bound beyond the horizon of normals, other densities no cap: infinity.
+double cap_margin(std::string_view density, const double* in, Precision precision);
 
 }  // namespace vndf::reference

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference/beckmann_maps.h"
+#include "reference/conic_maps.h"
 #include "reference/ggx_maps.h"
 
 namespace vndf::reference {
@@ -121,9 +122,8 @@ struct Margin {
     R inside, per_unit;
 };
 template <class R>
-Margin<R> eto_margin(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v) {
+Margin<R> eto_margin(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v, const Bound<R>& b) {
     using std::abs;
-    const Bound<R> b = bound(v.alpha_x, v.alpha_y, hypotenuse(wo.x, wo.y), wo.z);
     const Vec3<R> h{wo.x + wi.x, wo.y + wi.y, wo.z + wi.z};
     const R sx = h.x / v.alpha_x, sy = h.y / v.alpha_y, q = sx * sx + sy * sy + h.z * h.z, h2 = dot(h, h);
     const R height = h2 * h.z / (q * v.length);
@@ -135,15 +135,25 @@ Margin<R> eto_margin(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v) {
 
 // D(h) / (2 (k z + t)) on the bounded cap; outside by more than the rounding of wi can explain: 0.
 template <class R>
-R ggx_pdf_wi_eto2023(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay, Precision precision) {
-    if (!(wo.z > 0)) return pdf_wi<Ggx, R>(wo, wi, ax, ay);
-    const View<R> v = view(wo, ax, ay);
-    const Margin<R> margin = eto_margin(wo, wi, v);
+R ggx_pdf_wi_bounded(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v, const Bound<R>& b,
+                     Precision precision) {
+    const Margin<R> margin = eto_margin(wo, wi, v, b);
     const R unit = R(precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
     if (margin.inside < -8 * unit * margin.per_unit) return R(0);
-    const Bound<R> b = bound(ax, ay, hypotenuse(wo.x, wo.y), wo.z);
     const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
-    return Ggx::ndf(h, ax, ay) / (2 * (b.k * wo.z + v.length));
+    return Ggx::ndf(h, v.alpha_x, v.alpha_y) / (2 * v.length * b.up);
+}
+
+// sigma of the normals that reflect wo above the horizon, and D(h) over 4 times it there.
+template <class R>
+R sigma_visible(const View<R>& v) {
+    return v.up > 0 ? ggx_sigma_visible(v) : Ggx::sigma(v);
+}
+template <class R>
+R ggx_pdf_wi_conic2026(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay) {
+    if (!(wo.z > 0)) return pdf_wi<Ggx, R>(wo, wi, ax, ay);
+    const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
+    return wi.z > 0 ? R(Ggx::ndf(h, ax, ay) / (4 * ggx_sigma_visible(view(wo, ax, ay)))) : R(0);
 }
 
 // The visible slope x in the plane of incidence at alpha = 1.

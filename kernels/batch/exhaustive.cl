@@ -35,13 +35,11 @@ VNDF_FN int vndf_exhaustive_unit(VNDF_REAL4 d, VNDF_REAL slack) {
 // height h2 h.z / (q r) - wo.z / r is at least -k wo.z / r, where h = wo + wi, q = |h stretched|^2, r = |wo stretched|.
 // What is rounded to eps, apart from wi itself, is the sampler's half vector in the stretched frame, whose length is
 // h2 / (r sqrt(q)): that moves wi by alpha r q / h2 eps.
-VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 wi) {
+VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 wi, VNDF_REAL rest) {
     VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha(alpha.y);
-    VNDF_REAL rx = VNDF_R(1.0) / ax, ry = VNDF_R(1.0) / ay, low = vndf_impl_min(ax, ay);
+    VNDF_REAL rx = VNDF_R(1.0) / ax, ry = VNDF_R(1.0) / ay;
     VNDF_REAL r = VNDF_SQRT(ax * wo.x * ax * wo.x + ay * wo.y * ay * wo.y + wo.z * wo.z);
-    VNDF_REAL a = vndf_impl_min(low, VNDF_R(1.0)), z = vndf_impl_max(wo.z, VNDF_R(0.0));
-    VNDF_REAL s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
-    VNDF_REAL rest = a * a * (s * s + z * z) / (s * s + a * a * z * z);  // 1 - k
+    VNDF_REAL z = vndf_impl_max(wo.z, VNDF_R(0.0));
     VNDF_REAL hx = wo.x + wi.x, hy = wo.y + wi.y, hz = wo.z + wi.z;
     VNDF_REAL h2 = vndf_impl_max(hx * hx + hy * hy + hz * hz, VNDF_EPSILON * VNDF_EPSILON);
     VNDF_REAL sx = hx * rx, sy = hy * ry, q = sx * sx + sy * sy + hz * hz;
@@ -53,6 +51,43 @@ VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 w
     return h2 * hz - rest * z * q >= -slack;
 }
 
+// 1 - k of Equation 6, and of the polygon bound: the least ratio of its vertices.
+VNDF_FN VNDF_REAL vndf_exhaustive_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    VNDF_REAL low = vndf_impl_min(vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    VNDF_REAL a = vndf_impl_min(low, VNDF_R(1.0)), z = vndf_impl_max(wo.z, VNDF_R(0.0));
+    VNDF_REAL s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
+    return a * a * (s * s + z * z) / (s * s + a * a * z * z);
+}
+VNDF_FN VNDF_REAL vndf_exhaustive_ratio(VNDF_REAL low, VNDF_REAL high, VNDF_REAL x, VNDF_REAL y, VNDF_REAL z2) {
+    VNDF_REAL slant = low / high;
+    return low * low * (x + y + z2) / (slant * x * slant + y + low * z2 * low);
+}
+VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha(alpha.y);
+    VNDF_REAL low = vndf_impl_min(ax, ay), high = vndf_impl_max(ax, ay);
+    VNDF_REAL along = VNDF_R(1.0) + vndf_impl_abs(ax < ay ? wo.x : wo.y);
+    VNDF_REAL sine = VNDF_SQRT(wo.x * wo.x + wo.y * wo.y), s = VNDF_R(1.0) + sine, z2 = wo.z * wo.z;
+    VNDF_REAL less = z2 / s, side = along * along;
+    VNDF_REAL first = vndf_exhaustive_ratio(low, high, VNDF_R(0.0), side, z2);
+    VNDF_REAL second = vndf_exhaustive_ratio(low, high, vndf_impl_max(s * s - side, VNDF_R(0.0)), side, z2);
+    VNDF_REAL third = vndf_exhaustive_ratio(low, high, VNDF_R(0.0), less * less, z2);
+    return vndf_impl_min(vndf_impl_min(first, second), third);
+}
+
+// Whether a reflection lies where its density is positive: in its cap, or above the horizon.
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_eto2023(wo, alpha, d) \
+    vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_eto2023(wo, alpha))
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_eto2023_polygon(wo, alpha, d) \
+    vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_polygon(wo, alpha))
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_conic2026(wo, alpha, d)                      \
+    (wo.z > VNDF_R(0.0) ? d.z > VNDF_R(0.0)                                                 \
+                        : vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_eto2023(wo, alpha)))
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wm(wo, alpha, d) 1
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wm_benyoub2024(wo, alpha, d) 1
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wm_walter2007(wo, alpha, d) 1
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_beckmann_pdf_wm(wo, alpha, d) 1
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_beckmann_pdf_wm_walter2007(wo, alpha, d) 1
+
 // The invariants `upper` and `faces` by the kind of result and of arguments. A plain distribution of normals has no wo.
 #define VNDF_EXHAUSTIVE_DOT(d, v) vndf_impl_dot(d.x, d.y, d.z, v##_x, v##_y, v##_z)
 #define VNDF_EXHAUSTIVE_SLACK (VNDF_R(-4.0) * VNDF_EPSILON)
@@ -62,16 +97,19 @@ VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 w
 #define VNDF_EXHAUSTIVE_UPPER_WM_ALPHA_U(d) (d.z >= VNDF_R(0.0))
 #define VNDF_EXHAUSTIVE_UPPER_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, n) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
-#define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
-#define VNDF_EXHAUSTIVE_FACES_WM_ALPHA_U(d) 1
-#define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
-#define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d) \
-    vndf_exhaustive_in_cap(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
+#define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA1_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WM_ALPHA_U(d, inside) 1
+#define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside) \
+    inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
+#define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA1_U(d, inside) \
+    inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha, alpha), d)
 
 #define VNDF_EXHAUSTIVE_ARGUMENT(v) const VNDF_REAL lobe_##v,
 #define VNDF_EXHAUSTIVE_BIND(v) VNDF_REAL v = lobe_##v;
 
-#define VNDF_EXHAUSTIVE(name, function, arguments, result)                                                   \
+#define VNDF_EXHAUSTIVE(name, function, arguments, result, inside)                                                   \
     __kernel void name(VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_ARGUMENT) const uint step1,                  \
                        const uint start1, const uint step2, const uint start2, \
                        const uint strip, const uint defined, const uint documented, const uint watch,        \
@@ -88,7 +126,7 @@ VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 w
             const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d);                                               \
             const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d);                               \
             const int normal = (d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(1.0));           \
-            const int faces = defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d)                      \
+            const int faces = defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d, inside)                      \
                                       : normal | !documented;                                                \
             const int density = defined ? d.w > VNDF_R(0.0) : d.w == VNDF_R(0.0);                            \
             not_finite += !finite;                                                                           \
@@ -112,5 +150,5 @@ VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 w
     }
 
 #define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, p99_front, p99_back, source)     \
-    VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result)
+    VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result, VNDF_EXHAUSTIVE_INSIDE_##density)
 #include "../samplers.def"

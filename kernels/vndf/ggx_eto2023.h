@@ -22,20 +22,18 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(VNDF_REAL alpha_x, VNDF_REAL 
     return bound;
 }
 
-// The cap of ggx_dupuy2023.h with B = 1 + k z for P and 2 - B = k Q + (1 - k) for Q; the half vector, divided
-// by sqrt(B), gains (1 - k) z / sqrt(B) in height. k = 1 for wo.z <= 0, where this is the plain cap.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
+// The cap of ggx_dupuy2023.h with b = 1 + k z for P and 2 - b = k Q + (1 - k) for Q; the half vector, divided
+// by sqrt(b), gains (1 - k) z / sqrt(b) in height. k = 1 for wo.z <= 0, where this is the plain cap: b_front and
+// n_front = k wo.z + |v| count above the surface alone. wo2 = |wo|^2.
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf_impl_view v,
+                                                      struct vndf_impl_cap cap, struct vndf_impl_bound bound,
+                                                      VNDF_REAL b_front, VNDF_REAL n_front, VNDF_REAL wo2,
+                                                      VNDF_REAL2 u) {
     struct vndf_impl_sample o;
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_cap cap = vndf_impl_cap_of(v);
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    // Only the direction of wo counts: its length is divided out where the listing takes it for 1.
     int front = v.z > VNDF_R(0.0);
-    VNDF_REAL tangent2 = VNDF_FMA(wo.x, wo.x, wo.y * wo.y), wo2 = VNDF_FMA(wo.z, wo.z, tangent2);
-    struct vndf_impl_bound bound =
-        vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, VNDF_SQRT(tangent2 / wo2), wo.z * wo.z / wo2, front);
     VNDF_REAL z = cap.z;
-    VNDF_REAL b = front ? VNDF_FMA(bound.k, z, VNDF_R(1.0)) : cap.p;
+    VNDF_REAL b = front ? b_front : cap.p;
     VNDF_REAL complement = VNDF_FMA(bound.k, cap.q, bound.rest);
     VNDF_REAL sqrt_b = front ? VNDF_SQRT(b) : cap.sqrt_p, rcp_b = VNDF_R(1.0) / sqrt_b;
     VNDF_REAL tangent = front ? rcp_b / v.r : cap.tangent;
@@ -59,11 +57,21 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
     o.x = ox * rcp_o;
     o.y = oy * rcp_o;
     o.z = oz * rcp_o;
-    VNDF_REAL ratio = g2 / h2,
-              n = (front ? VNDF_FMA(bound.k, v.z, v.r) : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
+    VNDF_REAL ratio = g2 / h2, n = (front ? n_front : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
     VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return o;
+}
+
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
+    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
+    struct vndf_impl_cap cap = vndf_impl_cap_of(v);
+    // Only the direction of wo counts: its length is divided out where the listing takes it for 1.
+    VNDF_REAL tangent2 = VNDF_FMA(wo.x, wo.x, wo.y * wo.y), wo2 = VNDF_FMA(wo.z, wo.z, tangent2);
+    struct vndf_impl_bound bound = vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, VNDF_SQRT(tangent2 / wo2),
+                                                       wo.z * wo.z / wo2, v.z > VNDF_R(0.0));
+    return vndf_impl_ggx_bounded(wo, v, cap, bound, VNDF_FMA(bound.k, cap.z, VNDF_R(1.0)),
+                                 VNDF_FMA(bound.k, v.z, v.r), wo2, u);
 }
 
 // A reflection of wo by the bounded cap: the visible normal and the mirror step in one.
@@ -84,6 +92,22 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_with_pdf(VNDF_REAL3 wo, VNDF_REAL2
     return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(wo, alpha, u));
 }
 
+// The density of a cap of reflections above o_z = -k z, n_front as above.
+VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_impl_view v,
+                                            VNDF_REAL gap, VNDF_REAL n_front) {
+    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, v.alpha_x, v.alpha_y);
+    // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
+    VNDF_REAL limit = gap * wo.z * h.scale;
+    VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);
+    // Rounding moves each component of wi, and so of h, by up to 2^-24: twice the effect on both terms.
+    VNDF_REAL slack = VNDF_R(2.0) * VNDF_EPSILON * h.scale *
+                      (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
+    int inside = wo.z <= VNDF_R(0.0) || excess > -slack;
+    VNDF_REAL n = wo.z > VNDF_R(0.0) ? n_front : v.l * (v.l / (v.r + vndf_impl_abs(wo.z)));
+    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
+    return inside ? pdf : VNDF_R(0.0);
+}
+
 // The density of the bounded cap.
 // Source: Eto & Tokuyoshi 2023, Listing 2 and Equation 8, with the Heaviside function that the listing omits,
 //     so that it is a density over the whole sphere; for wo.z <= 0 that of the plain cap in the stable form.
@@ -92,22 +116,10 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_with_pdf(VNDF_REAL3 wo, VNDF_REAL2
 // Accuracy: 16 for the vectors as given. Below alpha = 1e-2 the rounding of wi moves the density by more than
 //     that: use the sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
-    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
-    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
+    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_bound bound = vndf_impl_ggx_bound(
-        alpha_x, alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z * wo.z, wo.z > VNDF_R(0.0));
-    // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
-    VNDF_REAL limit = bound.rest * wo.z * h.scale;
-    VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);
-    // Rounding moves each component of wi, and so of h, by up to 2^-24: twice the effect on both terms.
-    VNDF_REAL slack = VNDF_R(2.0) * VNDF_EPSILON * h.scale *
-                      (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
-    int inside = wo.z <= VNDF_R(0.0) || excess > -slack;
-    VNDF_REAL n =
-        wo.z > VNDF_R(0.0) ? VNDF_FMA(bound.k, wo.z, v.r) : v.l * (v.l / (v.r + vndf_impl_abs(wo.z)));
-    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, alpha_x, alpha_y);
-    return inside ? pdf : VNDF_R(0.0);
+        v.alpha_x, v.alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z * wo.z, wo.z > VNDF_R(0.0));
+    return vndf_impl_ggx_bounded_pdf(wo, wi, v, bound.rest, VNDF_FMA(bound.k, wo.z, v.r));
 }
 
 #endif

@@ -37,7 +37,9 @@
 #include "ggx_heitz2018.h"
 #include "ggx_dupuy2023.h"
 #include "ggx_eto2023.h"
+#include "ggx_eto2023_polygon.h"
 #include "ggx_benyoub2024.h"
+#include "ggx_conic2026.h"
 #include "ggx_walter2007.h"
 
 #include "beckmann.h"

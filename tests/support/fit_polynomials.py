@@ -169,6 +169,12 @@ def kepler_half(z):
     return eta / 2
 
 
+def arc(z):
+    """atan(t) / (2 pi t) in z = t^2."""
+    t = mp.sqrt(z)
+    return mp.atan(t) / (2 * mp.pi * t)
+
+
 KEPLER_END = mp.cbrt(6 * mp.pi) ** 2
 UP_TO_ONE = 1 - mpf("1e-12")
 
@@ -220,6 +226,8 @@ CASES = [
     dict(name="KEPLER_COS", what="cos(eta / 2) in z = k^2, eta - sin(eta) = k^3 / 6, eta <= pi", kind="absolute",
          degree=dict(float=9, double=24),
          pieces=[piece(lambda z: mp.cos(kepler_half(z)), *[(mpf("1e-30"), KEPLER_END)] * 2, absolute)]),
+    dict(name="ARC", what="atan(t) / (2 pi t) in z = t^2, 0 <= t <= 1", kind="relative",
+         degree=dict(float=9, double=20), pieces=[piece(arc, *[(mpf("1e-30"), mpf(1))] * 2)]),
 ]
 
 

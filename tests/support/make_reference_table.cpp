@@ -3,7 +3,7 @@
 //
 //   g++ -std=c++20 -O2 tests/support/make_reference_table.cpp -o make_reference_table
 //   ./make_reference_table > tests/data/reference_50digits.csv          (some ten minutes)
-// (with the argument samplers or terms: that part alone)
+// (with the argument samplers, terms or conic: that part alone)
 //
 // Everything starts from the distributions of slopes
 //   GGX 1 / (pi (1 + x^2 + y^2)^2),  Beckmann exp(-x^2 - y^2) / pi  (alpha = 1),
@@ -329,6 +329,140 @@ Sample bounded_cap(const Vec& wo, const Real& ax, const Real& ay, const Real& u1
     return {wi, pdf_wi_bounded(wo, wi, ax, ay)};
 }
 
+// --- Reflections above the horizon: 2 (s . m) m.z > s.z |A m|^2, m^T Q m > 0 ---
+
+// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations, and the axes in the order and with the signs of
+// the kernels: e0 of the positive eigenvalue, e1 of the lowest, towards s.
+struct Cone {
+    Vec e0, e1, e2;
+    Real mu, mu1, mu2;
+};
+Cone cone(const Vec& s, const Real& ax, const Real& ay) {
+    Real a[3][3] = {{-s.z * ax * ax, 0, s.x}, {0, -s.z * ay * ay, s.y}, {s.x, s.y, s.z}};
+    Real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int sweep = 0; sweep < 40; ++sweep)
+        for (const auto& [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+            if (a[p][q] == 0) continue;
+            const Real theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+            const Real t = (theta < 0 ? -1 : 1) / (abs(theta) + sqrt(theta * theta + 1));
+            const Real c = 1 / sqrt(t * t + 1), sine = t * c;
+            Real b[3][3];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) b[i][j] = a[i][j];
+            for (int i = 0; i < 3; ++i) {
+                b[i][p] = c * a[i][p] - sine * a[i][q], b[i][q] = sine * a[i][p] + c * a[i][q];
+                const Real x = v[i][p], y = v[i][q];
+                v[i][p] = c * x - sine * y, v[i][q] = sine * x + c * y;
+            }
+            for (int j = 0; j < 3; ++j) {
+                a[p][j] = c * b[p][j] - sine * b[q][j], a[q][j] = sine * b[p][j] + c * b[q][j];
+                if (j != p && j != q) a[j][p] = a[p][j], a[j][q] = a[q][j];
+            }
+            a[p][q] = a[q][p] = 0;
+        }
+    int order[3] = {2, 0, 1};
+    for (int i = 1; i < 3; ++i)
+        if (a[order[i]][order[i]] > a[order[0]][order[0]]) std::swap(order[0], order[i]);
+    if (a[order[1]][order[1]] > a[order[2]][order[2]]) std::swap(order[1], order[2]);
+    const auto axis = [&](int i) { return Vec{v[0][order[i]], v[1][order[i]], v[2][order[i]]}; };
+    Cone c{axis(0), axis(1), axis(2), a[order[0]][order[0]], -a[order[1]][order[1]], -a[order[2]][order[2]]};
+    if (c.e0.z < 0) c.e0 = Real(-1) * c.e0;
+    Real towards = dot(c.e1, s);
+    if (abs(towards) < Real(1e-60)) towards = abs(c.e1.x) < abs(c.e1.y) ? c.e1.y : c.e1.x;
+    if (towards < 0) c.e1 = Real(-1) * c.e1;
+    c.e2 = cross(c.e0, c.e1);
+    return c;
+}
+
+// The area of the horizon's curve seen along s, over pi: an ellipse across e0 of semi-axes sqrt(mu / (mu + mu1)) and
+// sqrt(mu / (mu + mu2)).
+Real sigma_visible(const Vec& wo, const Real& ax, const Real& ay) {
+    if (wo.z <= 0) return sigma(Ndf::ggx, wo, ax, ay);
+    const Vec v = {ax * wo.x, ay * wo.y, wo.z};
+    const Cone c = cone(unit(v), ax, ay);
+    return dot(v, c.e0) * c.mu / sqrt((c.mu + c.mu1) * (c.mu + c.mu2));
+}
+Real pdf_wi_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
+    if (wo.z <= 0) return pdf_wi(Ndf::ggx, wo, wi, ax, ay);
+    return wi.z > 0 ? Real(d(Ndf::ggx, unit(wo + wi), ax, ay) / (4 * sigma_visible(wo, ax, ay))) : Real(0);
+}
+
+// From the disk point (X, Y): the point with m1 = p Y on the chord between the rim points of that slice; along s without
+// s1 to the rim; along s to the sphere.
+Sample conic(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, const Real& u2) {
+    if (wo.z <= 0) {
+        const Sample m = cap(wo, ax, ay, u1, u2);
+        const Vec wi = reflect(wo, m.direction);
+        return {wi, pdf_wi(Ndf::ggx, wo, wi, ax, ay)};
+    }
+    const Vec s = unit({ax * wo.x, ay * wo.y, wo.z});
+    const Cone c = cone(s, ax, ay);
+    const Real s0 = dot(s, c.e0), s1 = dot(s, c.e1), s2 = dot(s, c.e2), n = sqrt(s0 * s0 + s2 * s2);
+    const Real x = sqrt(u2) * cos(2 * pi * u1), y = sqrt(u2) * sin(2 * pi * u1);
+    const Real p2 = c.mu / (c.mu + c.mu1), q2 = c.mu / (c.mu + c.mu2);
+    Real m0 = sqrt(1 - p2 * y * y - q2 * (1 - y * y)), m2 = sqrt(q2) * x;
+    const Real m1 = sqrt(p2) * y;
+    // (mu + mu1) m0^2 + (mu1 - mu2) m2^2 = mu1 on the rim.
+    const Real f0 = c.mu + c.mu1, f2 = c.mu1 - c.mu2, c0 = s0 / n, c2 = s2 / n;
+    const Real a = f0 * c0 * c0 + f2 * c2 * c2, b = f0 * c0 * m0 + f2 * c2 * m2,
+               rest = f0 * m0 * m0 + f2 * m2 * m2 - c.mu1;
+    const Real epsilon = (sqrt(b * b - a * rest) - b) / a;
+    m0 += c0 * epsilon, m2 += c2 * epsilon;
+    const Real along = s0 * m0 + s1 * m1 + s2 * m2;
+    const Real tau = sqrt(along * along + 1 - m0 * m0 - m1 * m1 - m2 * m2) - along;
+    const Vec m = (m0 + tau * s0) * c.e0 + (m1 + tau * s1) * c.e1 + (m2 + tau * s2) * c.e2;
+    const Vec wi = reflect(wo, unstretch(m, ax, ay));
+    return {wi, pdf_wi_conic(wo, wi, ax, ay)};
+}
+
+// u of wi by Newton's method on two components of the direction, from a start nearby.
+Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay, Reals u) {
+    const auto off = [&](const Reals& at) {
+        const Vec d = conic(wo, ax, ay, at[0], at[1]).direction;
+        const Vec across = unit(abs(wi.z) < Real(0.9) ? cross(wi, {0, 0, 1}) : cross(wi, {1, 0, 0}));
+        return std::pair<Real, Real>(dot(d, across), dot(d, cross(wi, across)));
+    };
+    const Real h(1e-30);
+    for (int i = 0; i < 12; ++i) {
+        const auto f = off(u), fx = off({u[0] + h, u[1]}), fy = off({u[0], u[1] + h});
+        const Real a = (fx.first - f.first) / h, b = (fy.first - f.first) / h, c = (fx.second - f.second) / h,
+                   e = (fy.second - f.second) / h, det = a * e - b * c;
+        u[0] -= (e * f.first - b * f.second) / det, u[1] -= (a * f.second - c * f.first) / det;
+    }
+    return u;
+}
+
+// The bound of the polygon: 1 / (1 - k) is the largest of the three candidates.
+Real polygon_k(const Vec& view, const Real& ax, const Real& ay) {
+    const Vec wo = unit(view);
+    const bool swap = ax < ay;
+    const Real low = swap ? ax : ay, high = swap ? ay : ax, y = abs(swap ? wo.x : wo.y);
+    const Real sine = sqrt(wo.x * wo.x + wo.y * wo.y), z2 = wo.z * wo.z;
+    const auto ratio = [&](const Real& xs, const Real& ys) {
+        return Real((xs / (high * high) + ys / (low * low) + z2) / (xs + ys + z2));
+    };
+    const Real side = (1 + y) * (1 + y), most = (1 + sine) * (1 + sine);
+    Real largest = ratio(0, (1 - sine) * (1 - sine));
+    for (const Real& r : {ratio(0, side), ratio(most - side, side)})
+        if (r > largest) largest = r;
+    return 1 - 1 / largest;
+}
+Real pdf_wi_polygon(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
+    if (wo.z <= 0) return pdf_wi(Ndf::ggx, wo, wi, ax, ay);
+    const Vec i = {ax * wo.x, ay * wo.y, wo.z}, m = unit(wo + wi);
+    const Vec m_std = unit({m.x / ax, m.y / ay, m.z});
+    const Real k = polygon_k(wo, ax, ay);
+    if (m.z <= 0 || reflect(unit(i), m_std).z <= -k * unit(i).z) return 0;
+    return d(Ndf::ggx, m, ax, ay) / (2 * (k * wo.z + norm(i)));
+}
+Sample polygon_cap(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, const Real& u2) {
+    const Stretched s = stretch(wo, ax, ay);
+    const Real theta_max = wo.z > 0 ? Real(acos(-polygon_k(wo, ax, ay) * s.i.z)) : Real(pi - s.theta);
+    const Vec m = unstretch(cap_direction(s, theta_max, 2 * pi * u1, u2) + s.i, ax, ay);
+    const Vec wi = reflect(wo, m);
+    return {wi, pdf_wi_polygon(wo, wi, ax, ay)};
+}
+
 // The GLSL listing; below, the mirrored sample and the axis -z.
 Sample world(const Vec& wo, const Vec& n, const Real& alpha, const Real& u1, const Real& u2) {
     const Vec along = dot(wo, n) * n, across = wo - along;
@@ -524,6 +658,27 @@ std::map<std::string, Evaluation> evaluations() {
     all["vndf_ggx_pdf_wi_eto2023"] = [](const Reals& in) {
         return Reals{pdf_wi_bounded(vec(in, 0), vec(in, 3), in[6], in[7])};
     };
+    sampler("ggx_sample_wi_eto2023_polygon", Map(polygon_cap));
+    sampler("ggx_sample_wi_conic2026", Map(conic));
+    all["vndf_ggx_sample_wi_conic2026_isotropic_with_pdf"] = [](const Reals& in) {
+        return list(conic(unit(vec(in, 0)), in[3], in[3], in[4], in[5]));
+    };
+    all["vndf_ggx_pdf_wi_eto2023_polygon"] = [](const Reals& in) {
+        return Reals{pdf_wi_polygon(vec(in, 0), vec(in, 3), in[6], in[7])};
+    };
+    all["vndf_ggx_pdf_wi_conic2026"] = [](const Reals& in) {
+        return Reals{pdf_wi_conic(vec(in, 0), vec(in, 3), in[6], in[7])};
+    };
+    all["vndf_ggx_sigma_visible"] = [](const Reals& in) {
+        return Reals{sigma_visible(vec(in, 0), in[3], in[4])};
+    };
+    all["vndf_ggx_reflection_probability"] = [](const Reals& in) {
+        const Vec w = vec(in, 0);
+        return Reals{sigma_visible(w, in[3], in[4]) / sigma(Ndf::ggx, w, in[3], in[4])};
+    };
+    all["vndf_ggx_invert_wi_conic2026"] = [](const Reals& in) {
+        return invert_conic(unit(vec(in, 0)), unit(vec(in, 3)), in[6], in[7], {Real(0.3), Real(0.4)});
+    };
     all["vndf_ggx_pdf_wm_benyoub2024"] = [](const Reals& in) {
         const Vec wo = vec(in, 0), n = unit(vec(in, 3)), m = vec(in, 6);
         const Real up = dot(wo, n), across = norm(wo - up * n), m_up = dot(m, n),
@@ -657,7 +812,8 @@ class Table {
         into(x[n - 1], low, high);
         into(x[n - 2], low, high);
         into(x[n - 3], alpha, 1e300);
-        if (name.find("benyoub") == std::string::npos) into(x[n - 4], alpha, 1e300);
+        if (name.find("benyoub") == std::string::npos && name.find("isotropic") == std::string::npos)
+            into(x[n - 4], alpha, 1e300);
     }
 
     std::map<std::string, Evaluation> evaluations_;
@@ -791,11 +947,45 @@ void terms(Table& table) {
         }
 }
 
+void conic(Table& table) {
+    std::size_t k = 0;
+    const auto add = [&](const Lobe& l) {
+        std::vector<double> w;
+        direction(l, w);
+        const double u1 = us[k % std::size(us)][0], u2 = us[k % std::size(us)][1];
+        ++k;
+        const auto join = [](std::vector<double> a, std::initializer_list<double> b) {
+            a.insert(a.end(), b);
+            return a;
+        };
+        const bool round = l.ax == l.ay && l.cos_theta == 1;  // any axes will do
+        // For one alpha the bound has a kink there, and no derivative by either.
+        if (l.ax != l.ay)
+            table.row("vndf_ggx_sample_wi_eto2023_polygon_with_pdf", join(w, {l.ax, l.ay, u1, u2}));
+        if (!round) table.row("vndf_ggx_sample_wi_conic2026_with_pdf", join(w, {l.ax, l.ay, u1, u2}));
+        table.row("vndf_ggx_sample_wi_conic2026_isotropic_with_pdf", join(w, {l.ax, u1, u2}));
+        table.row("vndf_ggx_sigma_visible", join(w, {l.ax, l.ay}));
+        table.row("vndf_ggx_reflection_probability", join(w, {l.ax, l.ay}));
+        // A reflection of this lobe, next to the one of u = (0.3, 0.4), from which its u is sought.
+        if (l.cos_theta <= 0 || round) return;
+        const Vec wo = unit({w[0], w[1], w[2]});
+        const Vec wi = conic(wo, l.ax, l.ay, Real(0.31), Real(0.38)).direction;
+        const std::vector<double> row = join(
+            w, {static_cast<double>(wi.x), static_cast<double>(wi.y), static_cast<double>(wi.z), l.ax, l.ay});
+        table.row("vndf_ggx_pdf_wi_conic2026", row);
+        table.row("vndf_ggx_pdf_wi_eto2023_polygon", row);
+        if (l.cos_theta > 1e-3 && l.ax > 1e-3 && l.ay > 1e-3) table.row("vndf_ggx_invert_wi_conic2026", row);
+    };
+    for (const Lobe& l : lobes) add(l);
+    for (const Lobe& l : back_lobes) add(l);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     const std::string part = argc > 1 ? argv[1] : "";
     Table table;
-    if (part != "terms") samplers(table);
-    if (part != "samplers") terms(table);
+    if (part.empty() || part == "samplers") samplers(table);
+    if (part.empty() || part == "terms") terms(table);
+    if (part.empty() || part == "conic") conic(table);
 }

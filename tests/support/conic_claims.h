@@ -1,0 +1,84 @@
+// What is claimed of the zero-waste reflections, counted: over random lobes of the whole domain, on all cores.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "reference/distribution.h"
+
+namespace vndf::claims {
+
+// A stream of numbers of its own for each block (SplitMix64).
+class Random {
+  public:
+    explicit Random(std::uint64_t block) : state_(block * 0x9e3779b97f4a7c15u + 1) {}
+    std::uint64_t bits() {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
+
+  private:
+    std::uint64_t state_;
+};
+
+// A view from above the surface: half of them grazing; alphas over the domain, a third of the lobes isotropic.
+struct Lobe {
+    double x, y, z, alpha_x, alpha_y;
+};
+inline Lobe random_lobe(Random& random, double least_alpha, double most_alpha) {
+    const double z = random.bits() % 2 ? random.uniform() + 1e-9 : random.log_uniform(1e-7, 1);
+    const double phi = 2 * 3.14159265358979323846 * random.uniform(), s = std::sqrt((1 - z) * (1 + z));
+    const double alpha = random.log_uniform(least_alpha, most_alpha);
+    const double other = random.bits() % 3 ? random.log_uniform(least_alpha, most_alpha) : alpha;
+    return {s * std::cos(phi), s * std::sin(phi), z, alpha, other};
+}
+
+// Calls visit(random, block) for blocks 0 ... count - 1.
+template <class Visit>
+void for_blocks(std::uint64_t count, Visit visit) {
+    std::atomic<std::uint64_t> next{0};
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+        threads.emplace_back([&] {
+            for (std::uint64_t block; (block = next++) < count;) {
+                Random random(block);
+                visit(random);
+            }
+        });
+    for (std::thread& thread : threads) thread.join();
+}
+
+inline void raise(std::atomic<double>& worst, double x) {
+    if (std::isnan(x)) x = INFINITY;
+    for (double old = worst; old < x && !worst.compare_exchange_weak(old, x);) {
+    }
+}
+
+constexpr std::uint64_t samples_of_lobe = 1024;
+
+// Reflections of `samples` random u, one in eight next to the rim, that are not above the horizon or not finite (float).
+std::uint64_t count_below(std::uint64_t samples);
+
+struct Lost {
+    std::uint64_t outside = 0;  // of the disk: no u gives this direction
+    double worst_round_trip =
+        0;  // of the angle between a direction and the reflection of its u, over its condition
+};
+// `directions` random directions above the horizon through the inverse (double), half of them near it.
+Lost count_lost(std::uint64_t directions);
+
+// The largest relative difference of the reflection probability (double) to the integral along the horizon's curve.
+double worst_probability(std::uint64_t lobes);
+
+// The largest difference of the density's integral (double) to 1.
+double worst_integral(std::uint64_t lobes);
+
+}  // namespace vndf::claims
