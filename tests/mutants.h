@@ -135,7 +135,7 @@ inline const std::vector<Mutant>& mutants() {
          {"pointwise, front", "pointwise, core"}},
         {"bounded: the unstretched height in the cap",
          "ggx_eto2023.h",
-         "VNDF_FMA(bound.k, z, VNDF_R(1.0))",
+         "VNDF_FMA(bound.k, cap.z, VNDF_R(1.0))",
          "VNDF_FMA(bound.k, wo.z, VNDF_R(1.0))",
          "vndf_ggx_sample_wi_eto2023",
          {"pointwise, front", "KS of pivot 2"}},
