@@ -38,7 +38,8 @@ TEST_CASE("strict and builtin keep their promises, and every build is measured")
         REQUIRE(e.functions.size() == 2);
         for (const Behaviour& f : e.functions) {
             CHECK(f.rows > 4000);
-            CHECK(f.non_finite == 0);
+            // Fast math loses what guards the ends of the domain.
+            if (e.build.promised()) CHECK(f.non_finite == 0);
             REQUIRE(!f.findings.empty());
             const Finding& finding = f.findings.front();
             if (f.function->with_pdf) continue;  // its first finding counts rows
