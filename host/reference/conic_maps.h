@@ -86,10 +86,10 @@ Cone<R> cone(const View<R>& v) {
     if (eigen.value[order[1]] > eigen.value[order[2]]) std::swap(order[1], order[2]);
     T sign[3] = {1, 1, 1};
     const auto axis = [&](int i, int k) { return sign[i] * eigen.v[k][order[i]]; };
-    const T sine = value_of(v.sin_theta), cosine = value_of(v.cos_theta);
     if (axis(0, 2) < 0) sign[0] = -1;
     // Equal eigenvalues at normal incidence: x and y. Else the sign as above.
-    T towards = axis(1, 0) * sine + axis(1, 2) * cosine;
+    // The last row of Q e = lambda e is s . e = lambda e_z.
+    T towards = -axis(1, 2);
     const T x = axis(1, 0) * value_of(v.ex) - axis(1, 1) * value_of(v.ey),
             y = axis(1, 0) * value_of(v.ey) + axis(1, 1) * value_of(v.ex);
     if (!(std::abs(towards) > 0)) towards = std::abs(x) < std::abs(y) ? y : x;
@@ -123,8 +123,7 @@ Cone<R> cone(const View<R>& v) {
     c.mu = lambda[0], c.mu1 = -lambda[1], c.mu2 = -lambda[2];
     c.e0 = {e[0][0], e[0][1], e[0][2]}, c.e1 = {e[1][0], e[1][1], e[1][2]},
     c.e2 = {e[2][0], e[2][1], e[2][2]};
-    const auto along = [&](const Vec3<R>& w) { return R(w.x * v.sin_theta + w.z * v.cos_theta); };
-    c.s0 = along(c.e0), c.s1 = along(c.e1), c.s2 = along(c.e2);
+    c.s0 = c.mu * c.e0.z, c.s1 = -c.mu1 * c.e1.z, c.s2 = -c.mu2 * c.e2.z;
     c.p2 = c.mu / (c.mu + c.mu1), c.co_p2 = c.mu1 / (c.mu + c.mu1);
     c.q2 = c.mu / (c.mu + c.mu2), c.co_q2 = c.mu2 / (c.mu + c.mu2);
     if (c.co_q2 < 0) c.co_q2 = R(0);

@@ -251,7 +251,7 @@ R ggx_reflection_probability_of(Reader<R> in) {
 template <class R>
 void evaluate_inverse(const R* in, R* out, Precision precision) {
     Reader<R> reader{in, precision};
-    const Vec3<R> wo = normalised(reader.vector()), wi = normalised(reader.vector());
+    const Vec3<R> wo = reader.vector(), wi = reader.vector();
     const DiskPoint<R> u = ggx_invert_conic2026(wo, wi, reader.stretched(wo));
     out[0] = u.u1, out[1] = std::clamp(u.u2, R(0), R(1));
 }

@@ -270,6 +270,8 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe,
 //     1 - 2^-53]). The map is continuous in u and preserves area: stratified points stay stratified.
 // return: unit vector wi, wi.z > 0 for wo.z > 0, with density vndf_ggx_pdf_wi_conic2026(wo, wi, alpha). For reflection
 //     alone: refraction needs a plain visible normal.
+// Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2, behind the
+//     surface 16; asserted by `clvndf check`.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026(vndf_ggx_conic2026_lobe(wo, alpha), u));
 }
@@ -309,6 +311,8 @@ VNDF_FN VNDF_REAL2 vndf_impl_conic_invert(struct vndf_ggx_conic2026 l, struct vn
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8.
 // return: (u.x, u.y) in [0, 1]. A wi below the horizon, which no u gives, counts as one on it; (0, 0) for wi = -wo.
+// Accuracy: 99.9 % within 16 units of 2^-24 (1 + condition number) (5.3 found) where wi is the mirror image of wo to
+//     within rounding.
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
     VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
@@ -381,6 +385,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
 // wo: as there. At normal incidence the azimuth 0 counts as the one of wo.
 // alpha: in [1e-8, 1e3]; raised to 1e-8.
 // u, return: as there.
+// Accuracy: as there.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026_isotropic(wo, alpha, u));
 }

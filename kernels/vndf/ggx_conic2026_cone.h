@@ -106,8 +106,8 @@ VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(struct vndf_impl_view v) {
 // w: unit vector, local frame, anywhere on the sphere. For w.z <= 0 every visible normal reflects above the horizon:
 //     vndf_ggx_sigma.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// return: in [0, sigma(w)], per unit area of the macrosurface: 4 times the integral over wi.z > 0 of the density of
-//     reflections that vndf_ggx_pdf_wi gives, times sigma / 4.
+// return: in [0, sigma(w)], per unit area of the macrosurface: sigma times the integral of vndf_ggx_pdf_wi over wi.z > 0.
+// Accuracy: 16 (9.2 found), asserted by `clvndf check`; double against quadrature along the horizon: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha));
 }
@@ -117,6 +117,7 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // w: unit vector, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8.
 // return: in [0, 1]; 1 for w.z <= 0.
+// Accuracy: 16 (8.3 found).
 VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
     struct vndf_impl_cone c = vndf_impl_cone_of(v);
@@ -129,6 +130,8 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8.
 // return: per steradian of wi; 0 for wi.z <= 0 above the surface. For wo.z <= 0 the same as vndf_ggx_pdf_wi.
+// Accuracy: 24 (16.2 found) for the vectors as given: 16 of D, the rest of sigma_vis. Below alpha = 1e-2 the rounding of
+//     wi moves the density by more than that: use the sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_half h = vndf_impl_half_of(wo, wi, v.alpha_x, v.alpha_y);

@@ -415,21 +415,24 @@ Sample conic(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, cons
     return {wi, pdf_wi_conic(wo, wi, ax, ay)};
 }
 
-// u of wi by Newton's method on two components of the direction, from a start nearby.
-Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay, Reals u) {
-    const auto off = [&](const Reals& at) {
-        const Vec d = conic(wo, ax, ay, at[0], at[1]).direction;
-        const Vec across = unit(abs(wi.z) < Real(0.9) ? cross(wi, {0, 0, 1}) : cross(wi, {1, 0, 0}));
-        return std::pair<Real, Real>(dot(d, across), dot(d, cross(wi, across)));
-    };
-    const Real h(1e-30);
-    for (int i = 0; i < 12; ++i) {
-        const auto f = off(u), fx = off({u[0] + h, u[1]}), fy = off({u[0], u[1] + h});
-        const Real a = (fx.first - f.first) / h, b = (fy.first - f.first) / h, c = (fx.second - f.second) / h,
-                   e = (fy.second - f.second) / h, det = a * e - b * c;
-        u[0] -= (e * f.first - b * f.second) / det, u[1] -= (a * f.second - c * f.first) / det;
-    }
-    return u;
+// u of wi: the same lines backwards. Of vectors as given, not quite unit ones: wo . h is |h|^2 / 2 and m^T Q m is
+// wi.z |A m|^2 / t.
+Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
+    const Vec v = {ax * wo.x, ay * wo.y, wo.z}, s = unit(v), h = wo + wi;
+    const Cone c = cone(s, ax, ay);
+    const Vec h_std = {h.x / ax, h.y / ay, h.z}, m = unit(h_std);
+    const Real s0 = dot(s, c.e0), s1 = dot(s, c.e1), s2 = dot(s, c.e2), n = sqrt(s0 * s0 + s2 * s2);
+    const Real c0 = s0 / n, c2 = s2 / n, f0 = c.mu + c.mu1, f2 = c.mu1 - c.mu2;
+    const Real m0 = dot(m, c.e0), m1 = dot(m, c.e1), m2 = dot(m, c.e2);
+    const Real along = dot(h, h) / (2 * norm(h_std) * norm(v)),
+               height = wi.z * dot(h, h) / (dot(h_std, h_std) * norm(v));
+    const Real a = f0 * c0 * c0 + f2 * c2 * c2, b = f0 * c0 * m0 + f2 * c2 * m2;
+    const Real delta = (b - sqrt(b * b - a * height)) / a, tau = delta / n;
+    const Real p2 = c.mu / f0, q2 = c.mu / (c.mu + c.mu2), y = (m1 - s1 * tau) / sqrt(p2);
+    const Real left = tau * (2 * along - tau) / p2, rim = sqrt(1 - p2 * y * y - q2 * (1 - y * y));
+    const Real epsilon = f2 / f0 * q2 * left / (c0 * (rim + m0 - c0 * delta));
+    const Real x = (m2 - c2 * (delta + epsilon)) / sqrt(q2), turn = atan2(y, x) / (2 * pi);
+    return {turn < 0 ? Real(turn + 1) : turn, x * x + y * y};
 }
 
 // The bound of the polygon: 1 / (1 - k) is the largest of the three candidates.
@@ -677,7 +680,7 @@ std::map<std::string, Evaluation> evaluations() {
         return Reals{sigma_visible(w, in[3], in[4]) / sigma(Ndf::ggx, w, in[3], in[4])};
     };
     all["vndf_ggx_invert_wi_conic2026"] = [](const Reals& in) {
-        return invert_conic(unit(vec(in, 0)), unit(vec(in, 3)), in[6], in[7], {Real(0.3), Real(0.4)});
+        return invert_conic(vec(in, 0), vec(in, 3), in[6], in[7]);
     };
     all["vndf_ggx_pdf_wm_benyoub2024"] = [](const Reals& in) {
         const Vec wo = vec(in, 0), n = unit(vec(in, 3)), m = vec(in, 6);
@@ -966,7 +969,7 @@ void conic(Table& table) {
         table.row("vndf_ggx_sample_wi_conic2026_isotropic_with_pdf", join(w, {l.ax, u1, u2}));
         table.row("vndf_ggx_sigma_visible", join(w, {l.ax, l.ay}));
         table.row("vndf_ggx_reflection_probability", join(w, {l.ax, l.ay}));
-        // A reflection of this lobe, next to the one of u = (0.3, 0.4), from which its u is sought.
+        // A reflection of this lobe.
         if (l.cos_theta <= 0 || round) return;
         const Vec wo = unit({w[0], w[1], w[2]});
         const Vec wi = conic(wo, l.ax, l.ay, Real(0.31), Real(0.38)).direction;
