@@ -291,3 +291,25 @@ VNDF_CASE("NaN in gives NaN out") {
     }
     CHECK(std::isnan(vndf_impl_erfcinv(nan)));
 }
+
+VNDF_CASE("turn is the azimuth in turns, absolutely accurate, relatively near the positive x axis") {
+    using std::abs, std::atan2;
+    Worst absolute, relative;
+    for (long i = 0; i < points; ++i) {
+        // The golden section's steps about the circle, every third point drawn towards the x axis.
+        const double angle = 6.283185307179586 * 0.6180339887498949 * static_cast<double>(i);
+        const auto x = static_cast<Number>(cos(angle));
+        const auto y =
+            static_cast<Number>(sin(angle) * (i % 3 ? 1 : exp(-20. * static_cast<double>(i) / points)));
+        Exact exact = Exact(atan2(Exact(y), Exact(x))) / (2 * pi);
+        if (exact < 0) exact += 1;
+        const Exact difference = Exact(vndf_impl_turn(x, y)) - exact;
+        absolute.add(difference, x);
+        if (x > 0 && y > 0) relative.add(Exact(difference / exact), x);
+    }
+    CAPTURE(absolute.error, relative.error);
+    CHECK(absolute.error <= 2);
+    CHECK(relative.error <= 4);
+    CHECK(vndf_impl_turn(0, 0) == 0);
+    CHECK(std::isnan(vndf_impl_turn(std::numeric_limits<Number>::quiet_NaN(), 1)));
+}
