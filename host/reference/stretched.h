@@ -18,6 +18,8 @@
 // the slope y across is an independent Gaussian.
 #pragma once
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include "reference/roots.h"
 
 namespace vndf::reference {
@@ -245,13 +247,25 @@ R beckmann_slope_upper(const R& x, const R& a, const R& weight) {
     return (a * (erfc(x) - erfc(a)) - rcp_sqrt_pi<R>() * (exp(-x * x) - exp(-a * a))) / weight;
 }
 
-// The slope below which the mass u = 1 - v lies.
+// The mass between the slope `down` below the top a < 8 of the range and that top, by quadrature of the density.
 template <class R>
-Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u, const R& v) {
-    using std::log;
+R beckmann_slope_next_to_top(const R& down, const R& a, const R& weight) {
+    using Rule = boost::math::quadrature::gauss<Real<R>, 30>;
+    R sum(0);
+    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
+        for (const int sign : {-1, 1}) {
+            const R d = down * ((1 + sign * Rule::abscissa()[i]) / 2);
+            sum = sum + Rule::weights()[i] / 2 * beckmann_slope_pdf<R>({a, weight}, {a - d, d});
+        }
+    return down * sum;
+}
+
+// The slope below which the mass 1 - v lies, for small v, which 1 - v hides.
+template <class R>
+Slope<R> beckmann_slope_upper_inverse(const Slopes<R>& s, const R& v, const Real<R>& far) {
+    using std::log, std::sqrt;
     using T = Real<R>;
-    // There v counts, which u hides; next to the edge, for smaller a, it moves x little.
-    if (s.a >= 8 && u > v) {
+    if (s.a >= 8) {
         const auto f = [](auto x, auto v, auto a, auto weight) {
             using S = decltype(a);
             return log(v) - log(beckmann_slope_upper<S>(S(x), a, weight));
@@ -262,6 +276,28 @@ Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u, const R& v) {
         const R x = solve<R>(f, df, T(-1), T(7), v, s.a, s.weight);
         return {x, s.a - x};
     }
+    // By roots, since the mass is nearly a square.
+    const auto f = [](auto down, auto v, auto a, auto weight) {
+        using S = decltype(a);
+        if (!(down > 0)) return S(-sqrt(v));
+        return S(sqrt(beckmann_slope_next_to_top<S>(S(down), a, weight)) - sqrt(v));
+    };
+    const auto df = [](T down, T, T a, T weight) {
+        return beckmann_slope_pdf<T>({a, weight}, {a - down, down}) /
+               (2 * std::sqrt(beckmann_slope_next_to_top<T>(down, a, weight)));
+    };
+    return slope_below_top<R>(s.a, solve<R>(f, df, T(0), far, v, s.a, s.weight));
+}
+
+// The slope below which the mass u = 1 - v lies.
+template <class R>
+Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u, const R& v) {
+    using std::log;
+    using T = Real<R>;
+    // Less than 2^-65 of the mass lies below x = -8, or, behind the surface, where the exponent exceeds 60.
+    const T a = value_of(s.a);
+    const T far = a < 0 ? 60 / (std::sqrt(a * a + 60) - a) : std::min(a, T(8)) + 8;
+    if (v < T(0x1p-20)) return beckmann_slope_upper_inverse(s, v, far);
     const auto f = [](auto down, auto u, auto a, auto weight) {
         using S = decltype(a);
         return log(u) - beckmann_slope_log_cdf<S>({a, weight}, slope_below_top<S>(a, S(down)));
@@ -270,9 +306,6 @@ Slope<R> beckmann_slope_inverse(const Slopes<R>& s, const R& u, const R& v) {
         const Slope<T> at = slope_below_top<T>(a, down);
         return beckmann_slope_pdf<T>({a, weight}, at) / std::exp(beckmann_slope_log_cdf<T>({a, weight}, at));
     };
-    // Less than 2^-65 of the mass lies below x = -8, or, behind the surface, where the exponent exceeds 60.
-    const T a = value_of(s.a);
-    const T far = a < 0 ? 60 / (std::sqrt(a * a + 60) - a) : std::min(a, T(8)) + 8;
     return slope_below_top<R>(s.a, solve<R>(f, df, T(0), far, u, s.a, s.weight));
 }
 
