@@ -7,7 +7,15 @@
 
 int main(int argc, char** argv) {
     const auto count = [&](int i, double otherwise) {
-        return static_cast<std::uint64_t>(i < argc ? std::atof(argv[i]) : otherwise);
+        char* end = nullptr;
+        const double value = i < argc ? std::strtod(argv[i], &end) : otherwise;
+        if (i < argc && (end == argv[i] || *end != 0 || !(value >= 1 && value <= 1e15))) {
+            std::fprintf(
+                stderr, "conic_claims: '%s' is not a count from 1 to 1e15 (reflections, directions, lobes)\n",
+                argv[i]);
+            std::exit(2);
+        }
+        return static_cast<std::uint64_t>(value);
     };
     bool holds = true;
     const auto say = [&](bool good, const char* format, auto... values) {
