@@ -129,8 +129,9 @@ Margin<R> eto_margin(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v, con
     const R height = h2 * h.z / (q * v.length);
     const R slope_q = 2 * (abs(sx) / v.alpha_x + abs(sy) / v.alpha_y + abs(h.z));
     const R slope_h2 = 2 * (abs(h.x) + abs(h.y) + abs(h.z));
-    return {height - b.gap * v.cos_theta,
-            abs(height) * slope_q / q + (slope_h2 * abs(h.z) + h2) / (q * v.length)};
+    // Between here and the edge: where rounding is all that is left of h, the change is not linear.
+    const R edge = b.gap * v.cos_theta, reached = abs(height) > edge ? R(abs(height)) : edge;
+    return {height - edge, reached * slope_q / q + (slope_h2 * abs(h.z) + h2) / (q * v.length)};
 }
 
 // D(h) / (2 (k z + t)) on the bounded cap; outside by more than the rounding of wi can explain: 0.
