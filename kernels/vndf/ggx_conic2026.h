@@ -311,7 +311,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_conic_invert(struct vndf_ggx_conic2026 l, struct vn
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each; raised to 1e-8.
 // return: (u.x, u.y) in [0, 1]. A wi below the horizon, which no u gives, counts as one on it; (0, 0) for wi = -wo.
-// Accuracy: 99.9 % within 16 units of 2^-24 (1 + condition number) (5.3 found) where wi is the mirror image of wo to
+// Accuracy: 99 % within 4 units of 2^-24 (1 + condition number) (1.1 found) where wi is the mirror image of wo to
 //     within rounding.
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
