@@ -21,6 +21,7 @@ struct Check {
     Target target;
     std::string only, json, junit;
     bool quick = false;
+    std::size_t points = 0;
     bool digest = false;
     std::string on = "device";  // whose digest
     bool exhaustive = false;
@@ -129,6 +130,7 @@ void run_check(const Check& options, Common& common) {
     conformance::CheckOptions check;
     check.seed = common.seed;
     check.quick = options.quick;
+    check.random_points = options.points;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
     const conformance::Report report = conformance::check(evaluator, options.target.math(), selected, check);
     progress.clear();
@@ -150,6 +152,11 @@ void add_check(CLI::App& app, Common& common) {
                         "only functions whose name contains this, or matches it with * and ?");
     CLI::Option* quick =
         command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
+    command
+        ->add_option("--points", options->points,
+                     "random inputs a function of the pointwise comparison, beside its hard grid (65536; "
+                     "--quick: 16384)")
+        ->check(CLI::Range(std::size_t{1024}, std::size_t{1} << 24));
     CLI::Option* json =
         command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
     CLI::Option* junit = command->add_option("--junit", options->junit,

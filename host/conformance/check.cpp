@@ -123,7 +123,8 @@ class Run {
         report_.level = sidak(family_rate, report_.tests);
         pointwise_.math = math;
         pointwise_.seed = options.seed;
-        pointwise_.random_points = std::size_t{1} << (options.quick ? 14 : 16);
+        pointwise_.random_points =
+            options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
         pointwise_.hard_stride = options.quick ? 7 : 1;
         pointwise_.quick = options.quick;
     }
