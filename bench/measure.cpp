@@ -98,7 +98,11 @@ std::string with_lobes(const std::string& json, const std::vector<LobeNoise>& lo
                                  {"cos_theta", l.cos_theta},
                                  {"rejected", l.rejected},
                                  {"mean", l.mean},
-                                 {"variance", l.variance}});
+                                 {"variance", l.variance},
+                                 {"smooth_mean", l.smooth_mean},
+                                 {"smooth_variance", l.smooth_variance},
+                                 {"sobol_rmse", l.sobol_rmse},
+                                 {"smooth_sobol_rmse", l.smooth_sobol_rmse}});
     return data.dump(1) + "\n";
 }
 

@@ -235,40 +235,102 @@ def iterations(benches):
 NOISE = (("vndf_ggx_sample_wm_walter2007", "plain NDF", "#7f7f7f"), ("vndf_ggx_sample_wm_dupuy2023", "cap", "#1f77b4"),
          ("vndf_ggx_sample_wi_eto2023", "bounded cap", "#ff7f0e"),
          ("vndf_ggx_sample_wi_eto2023_polygon", "polygon bound", "#2ca02c"),
+         ("vndf_ggx_sample_wi_eto2023/tries2", "bounded cap, 2 tries", "#9467bd"),
+         ("vndf_ggx_sample_wi_eto2023/tries4", "bounded cap, 4 tries", "#8c564b"),
          ("vndf_ggx_sample_wi_conic2026", "conic", "#d62728"))
+SMALL = "small light"
+LIGHTS = {  # what the time is multiplied with for equal noise
+    "white light": lambda lobe: lobe["variance"],
+    "smooth light": lambda lobe: lobe["smooth_variance"],
+    # All visible normals: their densities in the direction of the light differ by the part that is kept.
+    SMALL: lambda lobe: 1 / (1 - lobe["rejected"]),
+    "white light, Sobol": lambda lobe: lobe["sobol_rmse"] ** 2,
+    "smooth light, Sobol": lambda lobe: lobe["smooth_sobol_rmse"] ** 2,
+}
 
 
-def lobe_figures(benches):
-    """Rejection, variance and variance times time; the lobes do not depend on the device, times do."""
-    bench = benches[0]
+def lobe_ns(bench, lobe):
+    """Time of one sample with its density, compute-bound; of the first of K the times that it is made of."""
+    name, _, tries = lobe["sampler"].partition("/tries")
+    if lobe["sampler"].endswith("conic2026") and lobe["alpha_x"] == lobe["alpha_y"]:
+        name += "_isotropic"
+    ns = bench.ns(name + "_with_pdf", "strict/float", "compute")
+    if not tries:
+        return ns
+    visible = bench.ns("vndf_ggx_sigma_visible", "strict/float", "compute")
+    return int(tries) * ns + visible if ns and visible else None
+
+
+def gain(bench, lobe, light, shading_ns):
+    """Noise of the bounded cap over this sampler's in the same time, as a ratio of variances."""
+    def cost(one):
+        ns = lobe_ns(bench, one)
+        return LIGHTS[light](one) * (ns + shading_ns * (1 - one["rejected"])) if ns else None
+
+    same = ("alpha_x", "alpha_y", "cos_theta")
+    bounded = next(other for other in bench.lobes
+                   if other["sampler"] == BOUNDED and all(other[key] == lobe[key] for key in same))
+    ours, theirs = cost(lobe), cost(bounded)
+    if light == SMALL and lobe["sampler"].endswith("walter2007"):
+        return None
+    return theirs / ours if ours and theirs else None
+
+
+def lobe_grid(bench, rows, value):
+    """A panel for each row and angle: value(lobe, row) over the lobes, a line a sampler."""
     cosines = sorted({lobe["cos_theta"] for lobe in bench.lobes}, reverse=True)
-    rows = (("rejected", "rejected samples"), ("variance", "variance of one sample"),
-            ("cost", "variance times ns a sample"))
-    figure, axes = plt.subplots(3, max(1, len(cosines)), figsize=(11, 9), squeeze=False, sharex=True, sharey="row")
+    figure, axes = plt.subplots(len(rows), max(1, len(cosines)), figsize=(11, 2.5 * len(rows) + 1), squeeze=False,
+                                sharex=True, sharey="row")
     for column, cosine in enumerate(cosines):
         here = [lobe for lobe in bench.lobes if lobe["cos_theta"] == cosine]
         labels = list(dict.fromkeys(f"{lobe['alpha_x']:g}, {lobe['alpha_y']:g}" for lobe in here))
-        for axis, (value, label) in zip(axes[:, column], rows):
+        for axis, row in zip(axes[:, column], rows):
             for sampler, name, colour in NOISE:
                 lobes = [lobe for lobe in here if lobe["sampler"] == sampler]
-                ns = bench.ns(sampler, "strict/float", "compute")
-                if not lobes or (value == "cost" and not ns):
+                # 0 has no place on a logarithmic axis.
+                shown = [value(lobe, row) or math.nan for lobe in lobes]
+                if all(math.isnan(v) for v in shown):
                     continue
-                shown = [lobe["variance"] * ns if value == "cost" else lobe[value] for lobe in lobes]
                 # No line from the isotropic lobes to the others.
                 split = sum(lobe["alpha_x"] == lobe["alpha_y"] for lobe in lobes)
                 axis.plot(range(split), shown[:split], "o-", label=name, color=colour, markersize=4, linewidth=1)
                 axis.plot(range(split, len(shown)), shown[split:], "o-", color=colour, markersize=4, linewidth=1)
-            if value != "rejected":
-                axis.set_yscale("log")
+            axis.set_yscale("log")
             axis.set_title(f"cos(theta_o) = {cosine:.1f}", fontsize=8)
             axis.set_xticks(range(len(labels)), labels, rotation=60, fontsize=7)
             if column == 0:
-                axis.set_ylabel(label)
-        axes[2][column].set_xlabel("alpha_x, alpha_y")
-    if cosines:
-        axes[0][0].legend(fontsize=7, frameon=False)
+                axis.set_ylabel(row, fontsize=8)
+        axes[-1][column].set_xlabel("alpha_x, alpha_y")
+    return figure, axes
+
+
+def lobe_legend(axes):
+    """One for all panels, above the middle of the first row."""
+    axis = axes[0][axes.shape[1] // 2]
+    if axis.lines:
+        axis.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.15), ncol=4, frameon=False)
+
+
+def noise_of_one_sample(benches):
+    rows = {"rejected samples": "rejected", "variance, white light": "variance",
+            "variance, smooth light": "smooth_variance", "Sobol: RMSE, white light": "sobol_rmse",
+            "Sobol: RMSE, smooth light": "smooth_sobol_rmse"}
+    figure, axes = lobe_grid(benches[0], list(rows), lambda lobe, row: lobe[rows[row]])
+    lobe_legend(axes)
     return figure
+
+
+def equal_time(shading_ns):
+    def plot(benches):
+        figure, axes = lobe_grid(benches[0], list(LIGHTS), lambda lobe, row: gain(benches[0], lobe, row, shading_ns))
+        for axis in axes.flat:
+            axis.axhline(1, color="black", linewidth=0.8)
+            axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+            axis.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
+            axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+        lobe_legend(axes)
+        return figure
+    return plot
 
 
 def build_times(benches):
@@ -379,6 +441,14 @@ def entry_rows(bench):
                number(best.get("err_p50")), number(best.get("err_p99")), number(best.get("err_max")))
 
 
+def lobe_rows(bench):
+    names = {sampler: name for sampler, name, _ in NOISE}
+    for lobe in bench.lobes:
+        gains = [number(gain(bench, lobe, light, shading), "{:.2f}") for shading in (0, 100) for light in LIGHTS]
+        yield (f"{lobe['alpha_x']:g}, {lobe['alpha_y']:g}", number(lobe["cos_theta"]), names[lobe["sampler"]],
+               number(lobe["rejected"]), *gains)
+
+
 PLOTS = (
     ("Accuracy against time", accuracy_against_time,
      "Left and low is better. The error is the angle between the result and what exact arithmetic would give for the same "
@@ -395,10 +465,18 @@ PLOTS = (
     ("Iterations", iterations,
      "The inversion of Jakob 2014 with other numbers of steps. The other inversion, the exact slopes of Heitz & d'Eon 2014, "
      "has none: Kepler's equation is solved by two polynomials."),
-    ("Rejection and variance", lobe_figures,
-     "GGX without Fresnel under white light, azimuth 0.7. Samples whose reflection is below the surface are rejected and "
-     "count as 0. Variance times time (compute-bound, strict float) is the cost of equal noise where shading is free; with "
-     "dear shading only the variance counts."),
+    ("Rejection and variance", noise_of_one_sample,
+     "GGX without Fresnel, azimuth 0.7. Samples whose reflection is below the surface are rejected and count as 0. White light "
+     "is 1 everywhere, smooth light (1 + wi.x) / 2. Variance of one random sample; root of the mean squared error of 1024 "
+     "points of Sobol's sequence over 64 Owen scrambles. 2 and 4 tries: the first of so many samples of the bounded cap that "
+     "is above the surface."),
+    ("Equal time, shading free", equal_time(0),
+     "Above 1: less noise than the bounded cap in the same time, as a ratio of variances; in strict float, compute-bound, "
+     "with the density. Small light: the limit of a light of one direction, where the variance goes with 1 over the part that "
+     "is kept, whatever the direction. The time of K tries is that of K samples of the bounded cap and one sigma_visible. For "
+     "Sobol's points the squared error counts as variance, which underrates what faster samplers win."),
+    ("Equal time, shading 100 ns", equal_time(100),
+     "As above, with 100 ns more for each sample that is not rejected: rays and shading."),
     ("Build time", build_times, "One function's program: cold with an empty compiler cache, warm from the cache."),
 )
 
@@ -434,6 +512,9 @@ def page(benches):
         head = ["entry", "best", "median", "spread", "event", "useful", "of copy", "x published", "err p50", "err p99",
                 "err max"]
         out.append(f"<details><summary>{html.escape(bench.device)}</summary>{table(head, entry_rows(bench))}</details>")
+    head = ["alpha", "cos", "sampler", "rejected"] + [f"{light}, {ns} ns" for ns in (0, 100) for light in LIGHTS]
+    out.append("<h2>All lobes</h2><p>Rejected samples and, as in the plots, the gain over the bounded cap in equal time.</p>"
+               f"<details><summary>{html.escape(benches[0].device)}</summary>{table(head, lobe_rows(benches[0]))}</details>")
     out.append("</body></html>\n")
     return "\n".join(out)
 

@@ -51,19 +51,39 @@ def check_schema():
 
 
 def check_lobes(data):
-    """The samplers of a lobe estimate the same integral; bounded sampling loses fewest samples."""
+    """The samplers of a lobe estimate the same integral; what is not lost is not noise."""
+    samples, cap, bounded, conic = 2 ** 16, "vndf_ggx_sample_wm_dupuy2023", "vndf_ggx_sample_wi_eto2023", \
+        "vndf_ggx_sample_wi_conic2026"
     lobes = {}
     for lobe in data["lobes"]:
         lobes.setdefault((lobe["alpha_x"], lobe["alpha_y"], lobe["cos_theta"]), {})[lobe["sampler"]] = lobe
+    stratified = []
     for key, samplers in lobes.items():
-        cap, bounded = samplers["vndf_ggx_sample_wm_dupuy2023"], samplers["vndf_ggx_sample_wi_eto2023"]
-        assert bounded["rejected"] <= cap["rejected"], key
+        assert len(samplers) == 7, key
+        lost = samplers[bounded]["rejected"]
+        assert samplers[conic]["rejected"] == 0, key
+        assert samplers[bounded + "_polygon"]["rejected"] <= lost <= samplers[cap]["rejected"], key
+        for tries in (2, 4):
+            w = lost ** tries
+            assert abs(samplers[f"{bounded}/tries{tries}"]["rejected"] - w) <= 12 * (w / samples) ** 0.5 + 2e-4, key
         for name, lobe in samplers.items():
-            # Six standard errors of both, and the rounding of the committed figures.
-            tolerance = 6 * ((lobe["variance"] + cap["variance"]) / 2 ** 16) ** 0.5 + 1e-3
-            # A fat tail hides from a plain NDF's 2^16 samples at grazing angles.
-            if name != "vndf_ggx_sample_wm_walter2007" or key[2] > 0.4:
-                assert abs(lobe["mean"] - cap["mean"]) <= tolerance, (key, name, lobe["mean"], cap["mean"])
+            # Six standard errors of both, and the rounding of the committed figures. A fat tail hides from a plain
+            # NDF's samples at grazing angles.
+            if name == "vndf_ggx_sample_wm_walter2007" and key[2] < 0.4:
+                continue
+            for light in ("", "smooth_"):
+                mean, variance = f"{light}mean", f"{light}variance"
+                tolerance = 6 * ((lobe[variance] + samplers[cap][variance]) / samples) ** 0.5 + 1e-4
+                assert abs(lobe[mean] - samplers[cap][mean]) <= tolerance, (key, name, light, lobe, samplers[cap])
+            # Among visible normals the second moment times the part kept is that of the conic, whose weights are <= 1.
+            if "walter" not in name:
+                square = lobe["variance"] + lobe["mean"] ** 2
+                wanted = samplers[conic]["variance"] + samplers[conic]["mean"] ** 2
+                assert abs(square * (1 - lobe["rejected"]) - wanted) <= 8 * (2 * square / samples) ** 0.5 + 1e-3, (key, name)
+        for light in ("", "smooth_"):
+            stratified.append(samplers[conic][f"{light}sobol_rmse"] / (samplers[conic][f"{light}variance"] / 1024) ** 0.5)
+    # Sobol's points: better than random ones on every lobe for the sampler without hit and miss, and far better on most.
+    assert max(stratified) < 0.9 and sorted(stratified)[len(stratified) // 2] < 0.2, stratified
 
 
 def check_report():

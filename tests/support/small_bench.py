@@ -3,11 +3,15 @@
     python3 tests/support/small_bench.py tests/data/bench.json BENCH.json...
 """
 import json
+import re
 import sys
 
 FUNCTIONS = ("ggx_sample_wm_heitz_deon2014", "ggx_sample_wm_heitz2018", "ggx_sample_wm_dupuy2023",
              "ggx_sample_wm_benyoub2024", "ggx_sample_wi_eto2023", "beckmann_sample_wm_heitz_deon2014",
              "beckmann_sample_wm_jakob2014")
+# For equal time: the cost of a sample with its density.
+EQUAL_TIME = re.compile(r"vndf_ggx_(sample_wm_(walter2007|dupuy2023)_with_pdf|sample_wi_\w+_with_pdf|sigma_visible)"
+                        r"/strict/float/compute")
 
 
 def rounded(value):
@@ -21,6 +25,7 @@ for path in sys.argv[2:]:
     entries = [{k: rounded(v) for k, v in b.items()} for b in data["benchmarks"]
                if b.get("aggregate_name") in ("best", "median", "cv")
                and (b["run_name"].split("/")[0].removeprefix("vndf_") in FUNCTIONS
+                    or EQUAL_TIME.fullmatch(b["run_name"])
                     or b["run_name"].startswith(("copy_40B/", "copy_48B/", "fma/")))]
     if result is None:
         result = data
