@@ -287,15 +287,16 @@ def lobe_grid(bench, rows, value):
         for axis, row in zip(axes[:, column], rows):
             for sampler, name, colour in NOISE:
                 lobes = [lobe for lobe in here if lobe["sampler"] == sampler]
-                # 0 has no place on a logarithmic axis.
-                shown = [value(lobe, row) or math.nan for lobe in lobes]
-                if all(math.isnan(v) for v in shown):
+                shown = [value(lobe, row) for lobe in lobes]
+                if None in shown:
                     continue
                 # No line from the isotropic lobes to the others.
                 split = sum(lobe["alpha_x"] == lobe["alpha_y"] for lobe in lobes)
-                axis.plot(range(split), shown[:split], "o-", label=name, color=colour, markersize=4, linewidth=1)
-                axis.plot(range(split, len(shown)), shown[split:], "o-", color=colour, markersize=4, linewidth=1)
-            axis.set_yscale("log")
+                style = {"color": colour, "markersize": 6 if sampler == BOUNDED else 4, "linewidth": 1}
+                axis.plot(range(split), shown[:split], "o-", label=name, **style)
+                axis.plot(range(split, len(shown)), shown[split:], "o-", **style)
+            if row != "rejected samples":
+                axis.set_yscale("log")
             axis.set_title(f"cos(theta_o) = {cosine:.1f}", fontsize=8)
             axis.set_xticks(range(len(labels)), labels, rotation=60, fontsize=7)
             if column == 0:
@@ -304,11 +305,13 @@ def lobe_grid(bench, rows, value):
     return figure, axes
 
 
-def lobe_legend(axes):
-    """One for all panels, above the middle of the first row."""
-    axis = axes[0][axes.shape[1] // 2]
-    if axis.lines:
-        axis.legend(fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.15), ncol=4, frameon=False)
+def lobe_legend(figure, axes):
+    """One for all panels, above the first row, in the room of an empty title."""
+    figure.suptitle(" ")
+    handles, names = axes[1][0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, names, fontsize=8, loc="upper center", ncol=len(names),
+                      frameon=False).set_in_layout(False)
 
 
 def noise_of_one_sample(benches):
@@ -316,7 +319,7 @@ def noise_of_one_sample(benches):
             "variance, smooth light": "smooth_variance", "Sobol: RMSE, white light": "sobol_rmse",
             "Sobol: RMSE, smooth light": "smooth_sobol_rmse"}
     figure, axes = lobe_grid(benches[0], list(rows), lambda lobe, row: lobe[rows[row]])
-    lobe_legend(axes)
+    lobe_legend(figure, axes)
     return figure
 
 
@@ -328,7 +331,7 @@ def equal_time(shading_ns):
             axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
             axis.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
             axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        lobe_legend(axes)
+        lobe_legend(figure, axes)
         return figure
     return plot
 
