@@ -167,8 +167,7 @@ TEST_CASE("a substitution in a macro of several lines repeats all of them") {
 }
 
 TEST_CASE("a substitution that does not apply exactly once is an error") {
-    const std::vector<SourceFile> files = {
-        {"f", "same\nsame\n#include \"g\"\nfirst\nsecond\n"}};
+    const std::vector<SourceFile> files = {{"f", "same\nsame\n#include \"g\"\nfirst\nsecond\n"}};
     const auto attempt = [&](const std::string& file, const std::string& old_text) {
         Assembly assembly;
         assembly.substitutions = {{file, old_text, "new", 1}};
