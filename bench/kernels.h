@@ -31,7 +31,7 @@ std::size_t items_per_work_item(Copy, runtime::Real);
 // without its arithmetic: output k is input k plus the inputs that have no output of their own.
 std::string copy_source(Copy copy, std::size_t reads, std::size_t writes, runtime::Real real);
 
-// vndf_arithmetic(out): nothing but fma on registers, in 8 independent vectors of 8 floats. Each work-item does
+// vndf_arithmetic(out, x): nothing but fma on registers, in 8 independent vectors of 8 floats. Each work-item does
 // arithmetic_operations of them, two for an fma.
 std::string arithmetic_source();
 constexpr std::size_t arithmetic_operations = 2 * 8 * 8 * 4096;

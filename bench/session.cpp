@@ -150,6 +150,16 @@ Entry Session::stream_entry(const Function& function, DeviceEvaluator& evaluator
     return entry;
 }
 
+// As many items, doubled from `items`, as make one launch long beside its own cost.
+Entry Session::long_entry(const cl::Kernel& kernel, std::size_t items, std::size_t most) {
+    launch(kernel, items);
+    while (launch(kernel, items).wall_s < compute_launch_s && items < most) items *= 2;
+    Entry entry;
+    entry.samples = static_cast<double>(items);
+    entry.launch = [this, kernel, items] { return launch(kernel, items); };
+    return entry;
+}
+
 Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluator) {
     const Real real = evaluator.input_real();
     const conformance::Point point = lobe(in_world_space(function));
@@ -166,13 +176,24 @@ Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluato
     }
     for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
 
-    std::size_t items = compute_groups * local_size;
-    launch(kernel, items);
-    while (launch(kernel, items).wall_s < compute_launch_s && items < most_items) items *= 2;
-    Entry entry;
-    entry.samples = static_cast<double>(items);
-    entry.launch = [this, kernel, items] { return launch(kernel, items); };
-    return entry;
+    return long_entry(kernel, compute_groups * local_size, most_items);
+}
+
+// A kernel that needs nothing of the registry.
+cl::Kernel Session::own_kernel(const char* name, const std::string& source, Real real) {
+    runtime::ProgramOptions options;
+    options.root = "kernels/vndf/config.h";
+    options.functions = {"vndf_reflect"};
+    options.more_source = source;
+    options.context = context_;
+    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, real, options));
+    return cl::Kernel(evaluators_.back()->program(), name);
+}
+
+const Entry* Session::find_entry(const std::string& name) const {
+    const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](const Entry& entry) { return entry.name == name; });
+    return found == entries_.end() ? nullptr : &*found;
 }
 
 // The fastest of the copies for so many arrays; registers it once.
@@ -180,19 +201,12 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
     const std::size_t bytes = (reads + writes) * size_of(real);
     const std::string name = fmt::format("copy_{}B{}{}/stream", bytes, writes == 1 ? "_value" : "",
                                          real == Real::f64 ? "_double" : "");
-    const auto same = [&](const Entry& e) { return e.name == name; };
-    if (std::any_of(entries_.begin(), entries_.end(), same)) return name;
+    if (find_entry(name)) return name;
     const std::size_t items = column_bytes / size_of(real);
     Entry fastest;
     double best_s = INFINITY;
     for (const Copy copy : copies) {
-        runtime::ProgramOptions options;
-        options.root = "kernels/vndf/config.h";
-        options.functions = {"vndf_reflect"};
-        options.more_source = copy_source(copy, reads, writes, real);
-        options.context = context_;
-        evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, real, options));
-        cl::Kernel kernel(evaluators_.back()->program(), "vndf_copy");
+        cl::Kernel kernel = own_kernel("vndf_copy", copy_source(copy, reads, writes, real), real);
         cl_uint argument = 0;
         for (std::size_t i = 0; i < reads; ++i) {
             const std::string key = fmt::format("copy {}", i);
@@ -221,25 +235,13 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
 // The device's arithmetic rate: its samples are operations. Registers it once.
 std::string Session::arithmetic_entry() {
     const std::string name = "fma/compute";
-    const auto same = [&](const Entry& e) { return e.name == name; };
-    if (std::any_of(entries_.begin(), entries_.end(), same)) return name;
-    runtime::ProgramOptions options;
-    options.root = "kernels/vndf/config.h";
-    options.functions = {"vndf_reflect"};
-    options.more_source = arithmetic_source();
-    options.context = context_;
-    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, Real::f32, options));
-    cl::Kernel kernel(evaluators_.back()->program(), "vndf_arithmetic");
+    if (find_entry(name)) return name;
+    cl::Kernel kernel = own_kernel("vndf_arithmetic", arithmetic_source(), Real::f32);
     kernel.setArg(0, output(0));
     kernel.setArg(1, 0.5f);
-    std::size_t items = local_size * device_.compute_units;
-    launch(kernel, items);
-    while (launch(kernel, items).wall_s < compute_launch_s && items < column_bytes / sizeof(float))
-        items *= 2;
-    Entry entry;
+    Entry entry = long_entry(kernel, local_size * device_.compute_units, column_bytes / sizeof(float));
+    entry.samples *= arithmetic_operations;
     entry.name = name;
-    entry.samples = static_cast<double>(items * arithmetic_operations);
-    entry.launch = [this, kernel, items] { return launch(kernel, items); };
     entry.label = "a sample is one operation; an fma is two";
     entries_.push_back(std::move(entry));
     return name;
@@ -381,11 +383,7 @@ void Session::add_cpp(const Function& function) {
             workers.clear();
             return Timing{seconds_since(start), 0};
         };
-        const auto same = [&](const Entry& e) {
-            return e.name == fmt::format("{}/strict/float/stream", function.name);
-        };
-        if (const auto strict = std::find_if(entries_.begin(), entries_.end(), same);
-            strict != entries_.end()) {
+        if (const Entry* strict = find_entry(function.name + "/strict/float/stream")) {
             entry.useful = strict->useful;
             entry.figures = strict->figures;  // the same bits
             entry.figures.erase("build_cold_s");

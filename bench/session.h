@@ -57,6 +57,9 @@ class Session {
     Entry compute_entry(const Function& function, runtime::DeviceEvaluator& evaluator);
     std::string copy_entry(std::size_t reads, std::size_t writes, runtime::Real real);
     std::string arithmetic_entry();
+    Entry long_entry(const cl::Kernel& kernel, std::size_t items, std::size_t most);
+    cl::Kernel own_kernel(const char* name, const std::string& source, runtime::Real real);
+    const Entry* find_entry(const std::string& name) const;
     void add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator);
 
     const conformance::Table& table(const Function& function, runtime::Real real);

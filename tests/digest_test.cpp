@@ -1,7 +1,7 @@
 // Strict float has the same bits on every device and in every host build: digests of tests/data, made by
 //   clvndf check --digest --on host >tests/data/digests.txt
 //   clvndf check --digest --on host --quick >tests/data/digests_quick.txt
-// Compilers and options: same_bits.sh. Other devices: other_devices.sh.
+// Compilers and options: same_bits.sh. Other devices: oclgrind.sh, rusticl.sh.
 #include <fstream>
 #include <set>
 #include <sstream>

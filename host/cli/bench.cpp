@@ -17,6 +17,7 @@
 #include "bench/session.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
+#include "cli/progress.h"
 #include "conformance/check.h"
 #include "error.h"
 #include "runtime/sources.h"
@@ -79,11 +80,6 @@ void make_report(const std::string& folder) {
             fmt::format("--report {}: python3 with matplotlib (python3-matplotlib) could not draw it; the "
                         "measurements are in {}",
                         folder, path("bench.json")));
-}
-
-// A line on the terminal that is written over, and gone at the end.
-void show(bool shown, const std::string& text) {
-    if (shown) fmt::print(stderr, "\r\033[K{}", text), std::fflush(stderr);
 }
 
 // `forms`: part of POLICY/REAL that an entry must contain. What others are compared with is always there.
@@ -179,16 +175,20 @@ void run_bench(const Bench& options, Common& common) {
     Target target;
     target.device = options.device;
     const runtime::Device device = target.choose(common);
-    const bool shown = !common.quiet && isatty(STDERR_FILENO);
+    const Progress progress(common.quiet);
     bench::Session session(device);
     for (std::size_t i = 0; i < selected.size(); ++i) {
-        show(shown, fmt::format("building {} of {}: {}", i + 1, selected.size(), selected[i]->name));
+        progress("building " + selected[i]->name,
+                 static_cast<double>(i) / static_cast<double>(selected.size()));
         add_entries(session, device, *selected[i], forms);
     }
-    const bench::Measurement measurement = bench::measure(
-        session.entries(), options.repetitions, context(device, session, options), bench::lobe_noise(),
-        [&](double done) { show(shown, fmt::format("{:3.0f}%  measuring", 100 * done)); });
-    show(shown, "");
+    // Only the JSON holds the noise, which takes seconds.
+    const bool written = json || report;
+    const bench::Measurement measurement =
+        bench::measure(session.entries(), options.repetitions, context(device, session, options),
+                       written ? bench::lobe_noise() : std::vector<bench::LobeNoise>(),
+                       [&](double done) { progress("measuring", done); });
+    progress.clear();
     if (json) json->write(measurement.json), json->commit();
     if (options.json != "-") print_table(measurement.results, baseline);
     if (report) report->write(measurement.json), report->commit(), make_report(options.report);

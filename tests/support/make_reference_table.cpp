@@ -210,11 +210,13 @@ Real bound_k(const Vec& wo, const Real& ax, const Real& ay) {
     const Real s = 1 + sqrt(wo.x * wo.x + wo.y * wo.y);
     return (1 - a * a) * s * s / (s * s + a * a * wo.z * wo.z);
 }
-Real pdf_wi_bounded(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
+// The density of the cap above o_z = -k wo_z, k by `bound`.
+using Bound = Real (*)(const Vec& wo, const Real& ax, const Real& ay);
+Real pdf_wi_bounded(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay, Bound bound = bound_k) {
     if (wo.z <= 0) return pdf_wi(Ndf::ggx, wo, wi, ax, ay);
     const Vec i = {ax * wo.x, ay * wo.y, wo.z}, m = unit(wo + wi);
     const Vec m_std = unit({m.x / ax, m.y / ay, m.z});
-    const Real k = bound_k(wo, ax, ay);
+    const Real k = bound(wo, ax, ay);
     if (m.z <= 0 || reflect(unit(i), m_std).z <= -k * unit(i).z) return 0;
     return d(Ndf::ggx, m, ax, ay) / (2 * (k * wo.z + norm(i)));
 }
@@ -450,20 +452,12 @@ Real polygon_k(const Vec& view, const Real& ax, const Real& ay) {
         if (r > largest) largest = r;
     return 1 - 1 / largest;
 }
-Real pdf_wi_polygon(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
-    if (wo.z <= 0) return pdf_wi(Ndf::ggx, wo, wi, ax, ay);
-    const Vec i = {ax * wo.x, ay * wo.y, wo.z}, m = unit(wo + wi);
-    const Vec m_std = unit({m.x / ax, m.y / ay, m.z});
-    const Real k = polygon_k(wo, ax, ay);
-    if (m.z <= 0 || reflect(unit(i), m_std).z <= -k * unit(i).z) return 0;
-    return d(Ndf::ggx, m, ax, ay) / (2 * (k * wo.z + norm(i)));
-}
 Sample polygon_cap(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, const Real& u2) {
     const Stretched s = stretch(wo, ax, ay);
     const Real theta_max = wo.z > 0 ? Real(acos(-polygon_k(wo, ax, ay) * s.i.z)) : Real(pi - s.theta);
     const Vec m = unstretch(cap_direction(s, theta_max, 2 * pi * u1, u2) + s.i, ax, ay);
     const Vec wi = reflect(wo, m);
-    return {wi, pdf_wi_polygon(wo, wi, ax, ay)};
+    return {wi, pdf_wi_bounded(wo, wi, ax, ay, polygon_k)};
 }
 
 // The GLSL listing; below, the mirrored sample and the axis -z.
@@ -667,7 +661,7 @@ std::map<std::string, Evaluation> evaluations() {
         return list(conic(unit(vec(in, 0)), in[3], in[3], in[4], in[5]));
     };
     all["vndf_ggx_pdf_wi_eto2023_polygon"] = [](const Reals& in) {
-        return Reals{pdf_wi_polygon(vec(in, 0), vec(in, 3), in[6], in[7])};
+        return Reals{pdf_wi_bounded(vec(in, 0), vec(in, 3), in[6], in[7], polygon_k)};
     };
     all["vndf_ggx_pdf_wi_conic2026"] = [](const Reals& in) {
         return Reals{pdf_wi_conic(vec(in, 0), vec(in, 3), in[6], in[7])};
