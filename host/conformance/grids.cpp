@@ -171,6 +171,13 @@ std::vector<Point> silhouette_points() {
                         points.push_back(
                             make_point(wo, {alpha, alpha}, {1, 0}, {0, 0, 1}, {1 - last, near}, 1.5));
                     }
+    // Along an axis, stretched a thousand times: the half vector keeps the sign of its cosine with wo only if both terms
+    // of the cosine are right to their last bits.
+    for (const double cos_theta : {.95, .9, .8, .6, .5, .3, .1})
+        for (int last = 1; last <= 16; ++last)
+            for (const double u : {0., .5})
+                points.push_back(make_point(direction(cos_theta, 0), {1e3, 1e-8}, {1, 0}, {0, 0, 1},
+                                            {u, 1 - last * 0x1p-24}, 1.5));
     return points;
 }
 

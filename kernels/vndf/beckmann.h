@@ -64,6 +64,15 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
                                 vndf_impl_alpha(alpha.y));
 }
 
+// l = |(alpha_x w.x, alpha_y w.y)|: the products carry their rounding errors along, since a product of two G1 has no
+// units to spare. They are taken 2^27 times larger, against underflow.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    VNDF_REAL ax = vndf_impl_alpha(alpha.x) * VNDF_R(134217728.0),
+              ay = vndf_impl_alpha(alpha.y) * VNDF_R(134217728.0);
+    VNDF_REAL x = ax * w.x, y = ay * w.y, low = VNDF_FMA(x, VNDF_FMA(ax, w.x, -x), y * VNDF_FMA(ay, w.y, -y));
+    return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
+}
+
 // Smith's Lambda.
 // Source: Heitz 2014, Equation 66, as e^(-a^2) I(a) / a, which does not cancel.
 // w: unit vector, local frame.
@@ -71,8 +80,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
 // Accuracy: 8 (1 + 2 q), q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, w.z);
+    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
     VNDF_REAL pole = s.hidden * s.gaussian / s.a;
     VNDF_REAL upper = vndf_impl_finite(vndf_impl_abs(w.z) > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
@@ -84,9 +92,9 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: >= 0, per unit area of the macrosurface. Integral of D max(w . m, 0).
 // Accuracy: 8, below the horizon 8 (1 + 2 q), q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, w.z);
-    return VNDF_FMA(v.l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0)));
+    VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
+    struct vndf_impl_slopes s = vndf_impl_slopes_of(l, w.z);
+    return VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0)));
 }
 
 // Smith masking of one direction, for a normal that faces it.

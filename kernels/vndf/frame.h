@@ -165,6 +165,44 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(struct vndf_impl_view v) {
     return cap;
 }
 
+// The unit vector along the tangential part of v: azimuth 0 for a v without one.
+VNDF_FN VNDF_REAL vndf_impl_azimuth_x(struct vndf_impl_view v) {
+    return v.l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_azimuth_y(struct vndf_impl_view v) {
+    return v.y * v.rcp_l;
+}
+
+// The half vector (e + tangent d, z) of a cap of reflections, times k > 0. d: the azimuth of v; e: the tangential part
+// of the reflection, square = |e|^2; tangent2 = tangent^2; excess = square - tangent2.
+// The parts along d nearly cancel where the half vector nearly vanishes, opposite to v, and with it goes the sign of
+// its cosine with v. There k = tangent - e . d, and the part along d is tangent2 - (e . d)^2 = |e x d|^2 - excess, which
+// has no such difference.
+struct vndf_impl_cap_half {
+    VNDF_REAL x, y, z, k;
+};
+VNDF_FN struct vndf_impl_cap_half vndf_impl_cap_half_of(VNDF_REAL dx, VNDF_REAL dy, VNDF_REAL tangent,
+                                                        VNDF_REAL tangent2, VNDF_REAL ex, VNDF_REAL ey,
+                                                        VNDF_REAL square, VNDF_REAL excess, VNDF_REAL z) {
+    struct vndf_impl_cap_half h;
+    VNDF_REAL e_along = VNDF_FMA(ex, dx, ey * dy), e_across = VNDF_FMA(ey, dx, -ex * dy);
+    int opposite = e_along < VNDF_R(0.0) && square < VNDF_R(4.0) * tangent2;
+    h.k = opposite ? tangent - e_along : VNDF_R(1.0);
+    VNDF_REAL along = opposite ? VNDF_FMA(e_across, e_across, -excess) : e_along + tangent;
+    VNDF_REAL across = e_across * h.k;
+    h.x = VNDF_FMA(along, dx, -across * dy);
+    h.y = VNDF_FMA(along, dy, across * dx);
+    h.z = z * h.k;
+    return h;
+}
+
+// u2 b - q = z_b - (1 - u2) b, where b - q = z_b: by the form whose difference is not the smaller.
+VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b, VNDF_REAL q,
+                                       VNDF_REAL z_b) {
+    int near = rest < VNDF_R(0.5);
+    return VNDF_FMA(near ? -rest : u2, b, near ? z_b : -q);
+}
+
 // --- Public geometry ---
 
 // The mirror direction of wo about wm.

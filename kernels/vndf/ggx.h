@@ -53,9 +53,10 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
-    VNDF_REAL q = vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y), rcp_q = VNDF_R(1.0) / q;
+    VNDF_REAL q = vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y);
     // A slope whose square overflows leaves q infinite or NaN: nothing of the density is left.
-    return q < VNDF_REAL_MAX ? vndf_impl_finite(VNDF_1_PI * rcp_q / alpha_x / alpha_y * rcp_q) : VNDF_R(0.0);
+    VNDF_REAL p22 = VNDF_1_PI / ((q * alpha_x) * (q * alpha_y));
+    return q < VNDF_REAL_MAX ? vndf_impl_finite(p22) : VNDF_R(0.0);
 }
 
 // Smith's Lambda.
@@ -155,7 +156,11 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     x *= h.scale;
     y *= h.scale;
     h.z = z * h.scale;
-    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
+    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y;
+    // Quotients with little more than one rounding; of two shapes: alike they would be packed (frame.h).
+    VNDF_REAL sx = x * rcp_x, sy = y * rcp_y;
+    sx += VNDF_FMA(-sx, alpha_x, x) * rcp_x;
+    sy = VNDF_FMA(VNDF_FMA(-sy, alpha_y, y), rcp_y, sy);
     h.length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, h.z * h.z));
     h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
     h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, vndf_impl_abs(h.z)));

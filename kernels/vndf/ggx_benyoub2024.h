@@ -51,7 +51,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     hx = VNDF_FMA(-lean, n.x, hx);
     hy = VNDF_FMA(-lean, n.y, hy);
     hz = VNDF_FMA(-lean, n.z, hz);
-    // Rounding may put a nearly vanishing half vector behind the silhouette (ggx_dupuy2023.h).
+    // Rounding may put a nearly vanishing half vector behind the silhouette: back along the tangential part of wo, which
+    // leaves the height.
     VNDF_REAL behind = -VNDF_FMA(vx, hx, VNDF_FMA(vy, hy, VNDF_FMA(vz, hz, z * height)));
     VNDF_REAL back = vndf_impl_max(behind, VNDF_R(0.0)) * v.rcp_l * v.rcp_l;
     hx = VNDF_FMA(back, vx, hx);

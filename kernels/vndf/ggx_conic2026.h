@@ -37,37 +37,35 @@ struct vndf_impl_conic_normal {
 
 // The plain cap of ggx_dupuy2023.h: behind the surface it wastes nothing.
 struct vndf_impl_plain_cap {
-    VNDF_REAL x, y;  // of the stretched view direction over sqrt(p)
-    VNDF_REAL p, q, sqrt_p;
+    VNDF_REAL x, y;  // the azimuth of the stretched view direction
+    VNDF_REAL z, p, q, sqrt_p, sqrt_q;
 };
 VNDF_FN struct vndf_impl_plain_cap vndf_impl_plain_cap_of(struct vndf_impl_view v) {
     struct vndf_impl_plain_cap plain;
     struct vndf_impl_cap cap = vndf_impl_cap_of(v);
-    plain.x = cap.tangent * v.x;
-    plain.y = cap.tangent * v.y;
+    plain.x = vndf_impl_azimuth_x(v);
+    plain.y = vndf_impl_azimuth_y(v);
+    plain.z = cap.z;
     plain.p = cap.p;
     plain.q = cap.q;
     plain.sqrt_p = cap.sqrt_p;
+    plain.sqrt_q = cap.sqrt_q;
     return plain;
 }
 
-// The cap's normal for the same disk point, whose direction is the azimuth and 1 - rest the height.
-VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_cap_normal(struct vndf_impl_plain_cap cap,
-                                                                 struct vndf_impl_disk d) {
-    struct vndf_impl_conic_normal h;
-    VNDF_REAL scale = VNDF_SQRT(VNDF_FMA(d.rest, cap.p, cap.q));
-    h.x = VNDF_FMA(scale, d.x, cap.x);
-    h.y = VNDF_FMA(scale, d.y, cap.y);
-    h.z = d.rest * cap.sqrt_p;
-    return h;
+// The cap's half vector for the same disk point, whose direction is the azimuth and 1 - rest the height.
+VNDF_FN struct vndf_impl_cap_half vndf_impl_conic_cap_half(struct vndf_impl_plain_cap cap,
+                                                           struct vndf_impl_disk d) {
+    VNDF_REAL scale = VNDF_SQRT(VNDF_FMA(d.rest, cap.p, cap.q)), ex = scale * d.x, ey = scale * d.y;
+    return vndf_impl_cap_half_of(cap.x, cap.y, cap.sqrt_q, cap.q, ex, ey, VNDF_FMA(ex, ex, ey * ey),
+                                 d.rest * VNDF_FMA(-d.rest, cap.p, VNDF_R(2.0) * cap.z), d.rest * cap.sqrt_p);
 }
 
-// The unit reflection of wo, t its stretched length, about the unstretched normal, and its density D / (2 n), n = 2
-// sigma_vis of wo as given. Above the surface the normal is `front`, behind it `behind`, one of the cap.
+// The unit reflection of wo about the unstretched normal, and its density D / (2 n), n = 2
+// sigma_vis of wo as given. Above the surface the normal is `front`, behind it `behind`, a half vector of the cap.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal front,
-                                                        struct vndf_impl_conic_normal behind,
-                                                        VNDF_REAL sqrt_p, VNDF_REAL wo_x, VNDF_REAL wo_y,
-                                                        VNDF_REAL wo_z, VNDF_REAL t, VNDF_REAL alpha_x,
+                                                        struct vndf_impl_cap_half behind, VNDF_REAL wo_x,
+                                                        VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y, VNDF_REAL n) {
     struct vndf_impl_sample o;
     int above = wo_z > VNDF_R(0.0);
@@ -78,9 +76,6 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
     VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz)),
               h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
     VNDF_REAL cosine = VNDF_FMA(wo_x, gx, VNDF_FMA(wo_y, gy, wo_z * hz));
-    // v . h = sqrt(p) t |h|^2 / 2 on the cap: at a silhouette, where the sum cancels, it keeps the reflection in it.
-    int silhouette = cosine * cosine < VNDF_R(0.015625) * g2;
-    cosine = silhouette && !above ? VNDF_R(0.5) * t * sqrt_p * h2 : cosine;
     int defined = g2 > VNDF_R(0.0);
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0), ratio = g2 / h2;
     o.x = VNDF_FMA(twice, gx, -wo_x);
@@ -114,7 +109,7 @@ struct vndf_ggx_conic2026 {
     VNDF_REAL rho, a;
     VNDF_REAL t, twice_sigma;  // stretched length; sigma_vis
     VNDF_REAL steepness;       // t (mu + mu1)
-    VNDF_REAL cap_x, cap_y, cap_p, cap_q, cap_sqrt_p;
+    VNDF_REAL cap_x, cap_y, cap_z, cap_p, cap_q, cap_sqrt_p, cap_sqrt_q;
 };
 
 // e1 and e2 by a half turn that takes z to e0 and a rotation about it; h = mu1 - mu2 and the rotation from the two by two
@@ -192,9 +187,11 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_RE
     lobe.twice_sigma = v.z > VNDF_R(0.0) ? visible : behind;
     lobe.cap_x = cap.x;
     lobe.cap_y = cap.y;
+    lobe.cap_z = cap.z;
     lobe.cap_p = cap.p;
     lobe.cap_q = cap.q;
     lobe.cap_sqrt_p = cap.sqrt_p;
+    lobe.cap_sqrt_q = cap.sqrt_q;
     lobe = vndf_impl_conic_axes(lobe, c);
     lobe.n = VNDF_SQRT(VNDF_FMA(lobe.s0, lobe.s0, lobe.s2 * lobe.s2));
     lobe.c0 = lobe.s0 / lobe.n;
@@ -236,12 +233,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l,
     struct vndf_impl_plain_cap cap;
     cap.x = l.cap_x;
     cap.y = l.cap_y;
+    cap.z = l.cap_z;
     cap.p = l.cap_p;
     cap.q = l.cap_q;
     cap.sqrt_p = l.cap_sqrt_p;
-    return vndf_impl_conic_reflect(vndf_impl_conic_normal_of(l, d), vndf_impl_conic_cap_normal(cap, d),
-                                   cap.sqrt_p, l.wo_x, l.wo_y, l.wo_z, l.t, l.alpha_x, l.alpha_y,
-                                   l.twice_sigma);
+    cap.sqrt_q = l.cap_sqrt_q;
+    return vndf_impl_conic_reflect(vndf_impl_conic_normal_of(l, d), vndf_impl_conic_cap_half(cap, d), l.wo_x,
+                                   l.wo_y, l.wo_z, l.alpha_x, l.alpha_y, l.twice_sigma);
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_conic2026, for many u and one wo and alpha.
@@ -367,8 +365,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
     VNDF_REAL cosine = VNDF_SQRT(VNDF_FMA(along, along, left)), tau = left / (along + cosine);
     VNDF_REAL delta = s0 * tau, m0 = rim + delta, m1 = VNDF_FMA(s1, tau, py);
-    VNDF_REAL across = VNDF_FMA(m0, e, m1) * rcp_norm, ex = v.x * v.rcp_l, ey = v.y * v.rcp_l;
-    ex = v.l > VNDF_R(0.0) ? ex : VNDF_R(1.0);  // normal incidence: the plane of azimuth 0
+    VNDF_REAL across = VNDF_FMA(m0, e, m1) * rcp_norm;
+    VNDF_REAL ex = vndf_impl_azimuth_x(v), ey = vndf_impl_azimuth_y(v);
     struct vndf_impl_conic_normal h;
     h.x = VNDF_FMA(across, ex, -m2 * ey);
     h.y = VNDF_FMA(across, ey, m2 * ex);
@@ -377,8 +375,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     VNDF_REAL visible = VNDF_R(2.0) * v.r * mu * (mu * rcp_b) / norm2,
               hidden = v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
     struct vndf_impl_plain_cap cap = vndf_impl_plain_cap_of(v);
-    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_normal(cap, d), cap.sqrt_p, wo.x, wo.y, wo.z, v.r,
-                                   v.alpha_x, v.alpha_y, v.z > VNDF_R(0.0) ? visible : hidden);
+    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_half(cap, d), wo.x, wo.y, wo.z, v.alpha_x,
+                                   v.alpha_y, v.z > VNDF_R(0.0) ? visible : hidden);
 }
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.

@@ -10,25 +10,20 @@
 // With P = 1 + z, Q = 1 - z of the stretched view direction, the reflection o on the cap has 1 - o.z = u2 P
 // and 1 + o.z = (1 - u2) P + Q, and the half vector divided by sqrt(P) is
 //     (sqrt(u2 ((1 - u2) P + Q)) e(phi) + sqrt(Q) e_v, (1 - u2) sqrt(P)):
-// no difference anywhere, and all components stay of order 1 however small P is behind the surface.
+// all components stay of order 1 however small P is behind the surface.
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_cap cap = vndf_impl_cap_of(v);
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    VNDF_REAL sin_o = VNDF_SQRT(u2 * VNDF_FMA(rest, cap.p, cap.q));
-    VNDF_REAL hx = VNDF_FMA(sin_o, vndf_impl_circle_cos(u1), cap.tangent * v.x);
-    VNDF_REAL hy = VNDF_FMA(sin_o, vndf_impl_circle_sin(u1), cap.tangent * v.y);
-    VNDF_REAL hz = rest * cap.sqrt_p;
-    // v . h = |h|^2 / 2 is positive. Where h nearly vanishes (u2 near 1, opposite azimuths) rounding may deny it:
-    // back to the silhouette, along the tangential part of v, which leaves the height.
-    VNDF_REAL behind = -VNDF_FMA(v.x, hx, VNDF_FMA(v.y, hy, v.z * hz));
-    VNDF_REAL back = vndf_impl_max(behind, VNDF_R(0.0)) * v.rcp_l * v.rcp_l;
-    hx = VNDF_FMA(back, v.x, hx);
-    hy = VNDF_FMA(back, v.y, hy);
-    // (m . v) sqrt(P) = |h|^2 / 2.
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    VNDF_REAL weight = cap.sqrt_p > VNDF_R(0.0) ? h2 / cap.sqrt_p : VNDF_R(0.0);
-    return vndf_impl_ggx_unstretch(hx, hy, hz, v.alpha_x, v.alpha_y, weight);
+    VNDF_REAL square = u2 * VNDF_FMA(rest, cap.p, cap.q), sin_o = VNDF_SQRT(square);
+    struct vndf_impl_cap_half h = vndf_impl_cap_half_of(
+        vndf_impl_azimuth_x(v), vndf_impl_azimuth_y(v), cap.sqrt_q, cap.q, sin_o * vndf_impl_circle_cos(u1),
+        sin_o * vndf_impl_circle_sin(u1), square,
+        rest * vndf_impl_cap_excess(u2, rest, cap.p, cap.q, VNDF_R(2.0) * cap.z), rest * cap.sqrt_p);
+    // (m . v) sqrt(P) = |h|^2 / 2 for k = 1; it is weighed against |h|.
+    VNDF_REAL h2 = VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z)), scale = h.k * cap.sqrt_p;
+    VNDF_REAL weight = cap.sqrt_p > VNDF_R(0.0) ? h2 / scale : VNDF_R(0.0);
+    return vndf_impl_ggx_unstretch(h.x, h.y, h.z, v.alpha_x, v.alpha_y, weight);
 }
 
 // A visible normal by the spherical cap.

@@ -7,7 +7,7 @@
 
 #include "ggx.h"
 
-// Equations 5 and 6: k, and 1 - k without a difference. The conservative alpha is at most 1.
+// Equations 5 and 6: 1 - k without a difference; k counts beside 1. The conservative alpha is at most 1.
 struct vndf_impl_bound {
     VNDF_REAL k, rest;
 };
@@ -17,14 +17,14 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(VNDF_REAL alpha_x, VNDF_REAL 
     VNDF_REAL a = vndf_impl_min(vndf_impl_min(alpha_x, alpha_y), VNDF_R(1.0)), a2 = a * a;
     VNDF_REAL s = VNDF_R(1.0) + sine, s2 = s * s;
     VNDF_REAL rcp = VNDF_R(1.0) / VNDF_FMA(a2, z2, s2);
-    bound.k = front ? (VNDF_R(1.0) - a) * (VNDF_R(1.0) + a) * s2 * rcp : VNDF_R(1.0);
     bound.rest = front ? a2 * (s2 + z2) * rcp : VNDF_R(0.0);
+    bound.k = VNDF_R(1.0) - bound.rest;
     return bound;
 }
 
 // The cap of ggx_dupuy2023.h with b = 1 + k z for P and 2 - b = k Q + (1 - k) for Q; the half vector, divided
-// by sqrt(b), gains (1 - k) z / sqrt(b) in height. k = 1 for wo.z <= 0, where this is the plain cap: b_front and
-// n_front = k wo.z + |v| count above the surface alone. wo2 = |wo|^2.
+// by sqrt(b), has the height (1 - u2 + (1 - k) z / b) sqrt(b). k = 1 for wo.z <= 0, where this is the plain cap: b_front
+// and n_front = k wo.z + |v| count above the surface alone. wo2 = |wo|^2.
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf_impl_view v,
                                                       struct vndf_impl_cap cap, struct vndf_impl_bound bound,
                                                       VNDF_REAL b_front, VNDF_REAL n_front, VNDF_REAL wo2,
@@ -32,27 +32,25 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf
     struct vndf_impl_sample o;
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
     int front = v.z > VNDF_R(0.0);
-    VNDF_REAL z = cap.z;
     VNDF_REAL b = front ? b_front : cap.p;
     VNDF_REAL complement = VNDF_FMA(bound.k, cap.q, bound.rest);
     VNDF_REAL sqrt_b = front ? VNDF_SQRT(b) : cap.sqrt_p, rcp_b = VNDF_R(1.0) / sqrt_b;
-    VNDF_REAL tangent = front ? rcp_b / v.r : cap.tangent;
-    VNDF_REAL sin_o = VNDF_SQRT(u2 * VNDF_FMA(rest, b, complement));
-    VNDF_REAL hx = VNDF_FMA(sin_o, vndf_impl_circle_cos(u1), tangent * v.x);
-    VNDF_REAL hy = VNDF_FMA(sin_o, vndf_impl_circle_sin(u1), tangent * v.y);
-    VNDF_REAL hz = front ? VNDF_FMA(rest, sqrt_b, bound.rest * z * rcp_b) : rest * sqrt_b;
+    VNDF_REAL tangent = front ? cap.sine * rcp_b : cap.sqrt_q;
+    VNDF_REAL height = front ? VNDF_FMA(bound.rest * cap.z * rcp_b, rcp_b, rest) : rest;
+    VNDF_REAL square = u2 * VNDF_FMA(rest, b, complement), sin_o = VNDF_SQRT(square);
+    struct vndf_impl_cap_half h = vndf_impl_cap_half_of(
+        vndf_impl_azimuth_x(v), vndf_impl_azimuth_y(v), tangent, tangent * tangent,
+        sin_o * vndf_impl_circle_cos(u1), sin_o * vndf_impl_circle_sin(u1), square,
+        height * vndf_impl_cap_excess(u2, rest, b, cap.q, VNDF_FMA(bound.k, cap.z, cap.z)), height * sqrt_b);
     // Reflect about the normal g of any length: no rounding of g can tilt the mirror.
-    VNDF_REAL gx = v.alpha_x * hx, gy = v.alpha_y * hy;
-    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
-    VNDF_REAL cosine = VNDF_FMA(wo.x, gx, VNDF_FMA(wo.y, gy, wo.z * hz));
-    // v . h = |h|^2 / 2 as well. At a silhouette, where the sum cancels, it alone keeps the reflection in its cap.
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    int silhouette = cosine * cosine < VNDF_R(0.015625) * g2;
-    cosine = silhouette ? VNDF_R(0.5) * v.r * sqrt_b * h2 : cosine;
+    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
+    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
+    VNDF_REAL cosine = VNDF_FMA(wo.x, gx, VNDF_FMA(wo.y, gy, wo.z * h.z));
+    VNDF_REAL h2 = VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
     int defined = g2 > VNDF_R(0.0);
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, gx, -wo.x), oy = VNDF_FMA(twice, gy, -wo.y),
-              oz = VNDF_FMA(twice, hz, -wo.z);
+              oz = VNDF_FMA(twice, h.z, -wo.z);
     VNDF_REAL rcp_o = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(ox, ox, VNDF_FMA(oy, oy, oz * oz)));
     o.x = ox * rcp_o;
     o.y = oy * rcp_o;
