@@ -247,8 +247,7 @@ std::string Session::arithmetic_entry() {
     return name;
 }
 
-// Errors on the very inputs that are timed, and the part of a sampler's directions that are reflections above the
-// surface.
+// Errors on the very inputs that are timed.
 void Session::add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator) {
     const conformance::Table& inputs = table(function, evaluator.input_real());
     conformance::Table judged;
@@ -258,9 +257,12 @@ void Session::add_accuracy(Entry& entry, const Function& function, runtime::Eval
     entry.figures["err_p50"] = errors.percentile(50);
     entry.figures["err_p99"] = errors.percentile(99);
     entry.figures["err_max"] = errors.max();
-    if (function.kind != Kind::sampler) return;
+}
 
-    const auto results = conformance::evaluate(evaluator, function, inputs);
+// The part of a sampler's directions that are reflections above the surface.
+double Session::useful_part(const Function& function, runtime::Evaluator& evaluator) {
+    if (function.kind != Kind::sampler) return 1;
+    const auto results = conformance::evaluate(evaluator, function, table(function, evaluator.input_real()));
     const std::vector<conformance::Point> all = points(distinct_rows, in_world_space(function));
     const auto dot = [](const conformance::Direction& a, const conformance::Direction& b) {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -272,21 +274,19 @@ void Session::add_accuracy(Entry& entry, const Function& function, runtime::Eval
         useful += function.result == "WI" ? height > 0
                                           : cosine > 0 && 2 * cosine * height > dot(all[i].wo, all[i].n);
     }
-    entry.useful = static_cast<double>(useful) / static_cast<double>(all.size());
+    return static_cast<double>(useful) / static_cast<double>(all.size());
 }
 
-void Session::add_program(const Function& function, Math math, Real real, const std::string& policy,
-                          const std::string& root, const std::string& callee,
-                          const std::vector<runtime::Substitution>& substitutions) {
+void Session::add_program(const Function& function, Math math, Real real, const Form& form) {
     translated(device_, function.name, [&] {
         const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), real);
         runtime::ProgramOptions options;
         options.functions = {function.name};
-        options.root = root;
-        options.more_source = compute_source(function, callee);
+        options.root = form.root;
+        options.more_source = compute_source(function, form.callee);
         options.context = context_;
-        options.substitutions = substitutions;
-        options.mutant = substitutions.empty() ? 0 : 1;
+        options.substitutions = form.substitutions;
+        options.mutant = form.substitutions.empty() ? 0 : 1;
         for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
         const double cold_s = build(function, math, real, options);
         const double warm_s = build(function, math, real, options);  // from the driver's cache
@@ -294,16 +294,17 @@ void Session::add_program(const Function& function, Math math, Real real, const 
         if (build_options_.empty()) build_options_ = evaluator.build_options();
         Entry stream = stream_entry(function, evaluator);
         Entry compute = compute_entry(function, evaluator);
-        add_accuracy(stream, function, evaluator);
+        if (form.same_map) add_accuracy(stream, function, evaluator);
+        stream.useful = useful_part(function, evaluator);
         stream.figures["build_cold_s"] = cold_s;
         stream.figures["build_warm_s"] = warm_s;
         compute.figures = stream.figures;
         compute.useful = stream.useful;
-        const std::string name = fmt::format("{}/{}/{}", function.name, policy, to_string(real));
+        const std::string name = fmt::format("{}/{}/{}", function.name, form.policy, to_string(real));
         stream.name = name + "/stream";
         stream.copy = copy;
         compute.name = name + "/compute";
-        if (policy == "strict" && real == Real::f32 && operations(function) > 0) {
+        if (form.policy == "strict" && real == Real::f32 && operations(function) > 0) {
             stream.figures["operations"] = operations(function);
             stream.arithmetic = arithmetic_entry();
         }
@@ -317,7 +318,8 @@ void Session::add_program(const Function& function, Math math, Real real, const 
 }
 
 void Session::add(const Function& function, Math math, Real real) {
-    add_program(function, math, real, std::string(to_string(math)), "kernels/batch/batch.cl", function.name);
+    add_program(function, math, real,
+                {std::string(to_string(math)), "kernels/batch/batch.cl", function.name});
 }
 
 void Session::add_steps(const Function& function) {
@@ -334,14 +336,23 @@ void Session::add_steps(const Function& function) {
         {{file, second, second, 1}},
         {{file, second, second + "; " + second, 1}}};
     for (std::size_t steps = 0; steps < forms.size(); ++steps)
-        add_program(function, Math::strict, Real::f32, fmt::format("steps{}", steps),
-                    "kernels/batch/batch.cl", function.name, forms[steps]);
+        add_program(function, Math::strict, Real::f32,
+                    {fmt::format("steps{}", steps), "kernels/batch/batch.cl", function.name, forms[steps]});
 }
 
 void Session::add_published(const Function& function) {
     if (!is_published(function)) return;
-    add_program(function, Math::builtin, Real::f32, "published", "bench/published/batch.cl",
-                "published_" + function.name.substr(5));
+    add_program(function, Math::builtin, Real::f32,
+                {"published", "bench/published/batch.cl", "published_" + function.name.substr(5)});
+}
+
+void Session::add_basis(const Function& function) {
+    if (function.name != "vndf_ggx_sample_wm_benyoub2024") return;
+    // Its azimuths are those of the basis: the distribution is the same, the map is another.
+    const std::string root = "bench/cap_with_basis.cl";
+    add_program(function, Math::strict, Real::f32, {"basis", root, "vndf_bench_cap_with_basis", {}, false});
+    add_program(function, Math::builtin, Real::f32,
+                {"published_basis", root, "published_cap_with_basis", {}, false});
 }
 
 void Session::add_cpp(const Function& function) {

@@ -39,6 +39,8 @@ class Session {
     void add_steps(const Function& function);
     // The listing of the function's paper, if it is one of those at hand.
     void add_published(const Function& function);
+    // What the isotropic sampler competes with: a basis about n, the cap in it and back; ours and the listing.
+    void add_basis(const Function& function);
     // The same header as C++, on every thread of the host.
     void add_cpp(const Function& function);
 
@@ -47,9 +49,13 @@ class Session {
     const std::string& build_options() const { return build_options_; }
 
   private:
-    void add_program(const Function& function, runtime::Math math, runtime::Real real,
-                     const std::string& policy, const std::string& root, const std::string& callee,
-                     const std::vector<runtime::Substitution>& substitutions = {});
+    // How a function is computed: the source that has its entry point, and the OpenCL C function behind it.
+    struct Form {
+        std::string policy, root, callee;
+        std::vector<runtime::Substitution> substitutions = {};
+        bool same_map = true;  // whether the function's reference is its own
+    };
+    void add_program(const Function& function, runtime::Math math, runtime::Real real, const Form& form);
     cl::Kernel stream_kernel(const Function& function, runtime::DeviceEvaluator& evaluator);
     double build(const Function& function, runtime::Math math, runtime::Real real,
                  const runtime::ProgramOptions& options);
@@ -61,6 +67,7 @@ class Session {
     cl::Kernel own_kernel(const char* name, const std::string& source, runtime::Real real);
     const Entry* find_entry(const std::string& name) const;
     void add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator);
+    double useful_part(const Function& function, runtime::Evaluator& evaluator);
 
     const conformance::Table& table(const Function& function, runtime::Real real);
     cl::Buffer& input(const Function& function, std::size_t index, runtime::Real real);

@@ -7,6 +7,7 @@
 #include "vndf/ggx_conic2026.h"
 #include "vndf/ggx_eto2023_polygon.h"
 
+#include "runtime/device_evaluator.h"
 #include "support/catch.h"
 #include "support/conic_claims.h"
 
@@ -101,6 +102,73 @@ TEST_CASE("a lobe for many samples gives the bits of the single call") {
                      shared = vndf_ggx_pdf_wi_conic2026_lobe(lobe_of(at), c);
         CHECK(shared == pdf);
     }
+}
+
+// An item makes its lobe once, from a row of wo and alpha, and draws 16 samples of it.
+const char* const many_samples = R"(
+__kernel void many_samples(__global const float *rows, __global const float *u1, __global const float *u2,
+                           __global float *out) {
+    const size_t item = get_global_id(0);
+    __global const float *row = rows + 5 * item;
+    const struct vndf_ggx_conic2026 lobe =
+        vndf_ggx_conic2026_lobe((float3)(row[0], row[1], row[2]), (float2)(row[3], row[4]));
+    for (size_t i = 16 * item; i < 16 * item + 16; ++i) {
+        const float4 wi = vndf_ggx_sample_wi_conic2026_lobe_with_pdf(lobe, (float2)(u1[i], u2[i]));
+        vstore4(wi, i, out);
+        if (any(wi.xyz != vndf_ggx_sample_wi_conic2026_lobe(lobe, (float2)(u1[i], u2[i])))) out[4 * i] = NAN;
+        out[4 * i + 3] += 2 * vndf_ggx_pdf_wi_conic2026_lobe(lobe, wi.xyz);
+    }
+}
+)";
+
+TEST_CASE("on the device, too, a lobe for many samples gives the bits of the single call") {
+    constexpr std::size_t items = 256, samples = 16 * items;
+    const Function &sampler = *find_function("vndf_ggx_sample_wi_conic2026_with_pdf"),
+                   &density = *find_function("vndf_ggx_pdf_wi_conic2026");
+    runtime::ProgramOptions options;
+    options.functions = {sampler.name, density.name};
+    options.more_source = many_samples;
+    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
+                                    runtime::Real::f32, options);
+    std::vector<float> rows, u1(samples), u2(samples), out(4 * samples);
+    std::vector<std::vector<float>> lobe(5);
+    Random random(5);
+    for (std::size_t item = 0; item < items; ++item) {
+        const Lobe at = random_lobe(random, 1e-4, 10);
+        for (const double value : {at.x, at.y, item % 4 ? at.z : -at.z, at.alpha_x, at.alpha_y})
+            rows.push_back(static_cast<float>(value));
+        for (std::size_t k = 0; k < 5; ++k) lobe[k].insert(lobe[k].end(), 16, rows[5 * item + k]);
+    }
+    device.uniforms(1, 0, samples, u1.data(), u2.data());
+
+    const cl::CommandQueue queue(device.context(), device.device().handle);
+    const auto copy_of = [&](std::vector<float>& values) {
+        return cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+                          values.size() * sizeof(float), values.data());
+    };
+    const cl::Buffer lobes = copy_of(rows), first = copy_of(u1), second = copy_of(u2), result = copy_of(out);
+    cl::Kernel kernel(device.program(), "many_samples");
+    kernel.setArg(0, lobes);
+    kernel.setArg(1, first);
+    kernel.setArg(2, second);
+    kernel.setArg(3, result);
+    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(64));
+    queue.enqueueReadBuffer(result, CL_TRUE, 0, out.size() * sizeof(float), out.data());
+
+    std::vector<float> x(samples), y(samples), z(samples), pdf(samples), separate(samples);
+    device.run(sampler, samples,
+               {lobe[0].data(), lobe[1].data(), lobe[2].data(), lobe[3].data(), lobe[4].data(), u1.data(),
+                u2.data()},
+               {x.data(), y.data(), z.data(), pdf.data()});
+    device.run(density, samples,
+               {lobe[0].data(), lobe[1].data(), lobe[2].data(), x.data(), y.data(), z.data(), lobe[3].data(),
+                lobe[4].data()},
+               {separate.data()});
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < samples; ++i)
+        differing += out[4 * i] != x[i] || out[4 * i + 1] != y[i] || out[4 * i + 2] != z[i] ||
+                     out[4 * i + 3] != pdf[i] + 2 * separate[i];
+    CHECK(differing == 0);
 }
 
 TEST_CASE("the isotropic form is the general map for one alpha") {

@@ -89,6 +89,7 @@ TEST_CASE("every kind of check notices a seeded mistake") {
                              "density of the exact sample",
                              "density finite",
                              "density 0 outside",
+                             "separate density positive at the samples",
                              "agrees with the separate density",
                              "fit: "}) {
         INFO(kind);

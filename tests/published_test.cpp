@@ -76,6 +76,21 @@ TEST_CASE("the published listings draw from their densities, the fit with its kn
     }
 }
 
+TEST_CASE("the cap in a basis draws from the density of the isotropic sampler in world space") {
+    const Function& world = *find_function("vndf_ggx_sample_wm_benyoub2024");
+    for (const runtime::Math math : {runtime::Math::strict, runtime::Math::builtin}) {
+        runtime::ProgramOptions options;
+        options.root = "bench/cap_with_basis.cl";
+        runtime::DeviceEvaluator evaluator(runtime::choose_device().device, math, runtime::Real::f32,
+                                           options);
+        std::uint64_t stream = 0;
+        for (const Point& lobe : front_lobes(world)) {
+            CAPTURE(runtime::to_string(math), lobe.cos_theta, lobe.alpha[0], lobe.n[2]);
+            CHECK(failures(evaluator, world, world, lobe, ++stream, 1e-9) == "");
+        }
+    }
+}
+
 TEST_CASE("a listing that draws from another density is found out") {
     runtime::DeviceEvaluator evaluator = published();
     const Function& beckmann = *find_function("vndf_beckmann_sample_wm_heitz_deon2014");

@@ -96,6 +96,7 @@ void add_entries(bench::Session& session, const runtime::Device& device, const F
     }
     if (wanted("steps/float")) session.add_steps(function);
     session.add_published(function);
+    if (wanted("basis/float")) session.add_basis(function);
     if (wanted("cpp/float")) session.add_cpp(function);
 }
 

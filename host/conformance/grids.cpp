@@ -181,10 +181,27 @@ std::vector<Point> silhouette_points() {
     return points;
 }
 
+// Reflections back to where wo came from, whose half vectors face away from wo, by less than rounding shows.
+std::vector<Point> returning_points() {
+    std::vector<Point> points;
+    for (const double alpha : {1e-6, 2e-6, 1e-5})
+        for (const double a : {.7, 1., 1.5, 2., 3., 4.})
+            for (const double height : {1e-5, 3e-5, 1e-4})
+                for (const double azimuth : {0., .7, 1.7, -1.2, 3.}) {
+                    Point point = make_point(direction(-a * alpha, azimuth), {alpha, alpha}, {1, 0}, {0, 0, 1},
+                                             {.5, .5}, 1.5);
+                    point.wi = {-point.wo[0], -point.wo[1], height};
+                    points.push_back(point);
+                }
+    return points;
+}
+
 }  // namespace
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
+    if (uses(function, {"wi_x"}))
+        for (const Point& point : returning_points()) points.push_back(point);
     if (uses(function, {"u1"}))
         for (const Point& point : silhouette_points()) points.push_back(point);
     return distinct(function, points);

@@ -12,10 +12,10 @@ namespace {
 using Columns = std::vector<std::vector<double>>;
 
 struct PdfErrors {
-    Errors core, all, sign, outside, direction, agreement;
+    Errors core, all, sign, outside, direction, lost, agreement;
     void merge(const PdfErrors& other) {
         core.merge(other.core), all.merge(other.all), sign.merge(other.sign), outside.merge(other.outside);
-        direction.merge(other.direction), agreement.merge(other.agreement);
+        direction.merge(other.direction), lost.merge(other.lost), agreement.merge(other.agreement);
     }
 };
 
@@ -70,6 +70,10 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     }
     errors.sign.add(std::isfinite(pdf) && pdf >= 0 ? 0 : 1, i);
     if (1 + cos_theta_o < 1e-15) return;  // wo = -n: no distribution
+    // A reflection never leaves the support of its density, whatever the rounding of its direction; its half vector may
+    // leave the upper side, within rounding.
+    if (s.sampler.result == "WI" && pdf > 0 && reader.wo(row.data())[2] + s.fused[2][i] > 0)
+        errors.lost.add(s.separate[0][i] > 0 ? 0 : 1, i);
 
     R exact[4];
     const std::vector<R> in(row.begin(), row.end());
@@ -154,6 +158,8 @@ std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Functio
     add("density finite and not negative", errors.sign.max(), 0, "rows", errors.sign);
     if (errors.outside.count())
         add("density 0 outside the domain", errors.outside.max(), 0, "rows", errors.outside);
+    if (errors.lost.count())
+        add("separate density positive at the samples", errors.lost.max(), 0, "rows", errors.lost);
     if (errors.agreement.count())
         add("agrees with the separate density, p99", errors.agreement.percentile(99), 32 * factor,
             "eps (1 + cond)(1 + cond of the map)", errors.agreement);

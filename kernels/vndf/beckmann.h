@@ -130,19 +130,6 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
     return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
 }
 
-// The component of the slope of (x, y, .) across the stretched wo, times l and the height of the normal:
-// (x wo.y alpha_y^2 - y wo.x alpha_x^2) / (alpha_x alpha_y). Behind the surface the terms may be 1e8 times their
-// difference: every product carries its rounding error along. Alphas are taken 2^27 times larger, against underflow.
-VNDF_FN VNDF_REAL vndf_impl_slope_across(VNDF_REAL3 wo, VNDF_REAL x, VNDF_REAL y, VNDF_REAL alpha_x,
-                                         VNDF_REAL alpha_y) {
-    VNDF_REAL ax = alpha_x * VNDF_R(134217728.0), ay = alpha_y * VNDF_R(134217728.0);
-    VNDF_REAL ax2 = ax * ax, ay2 = ay * ay, p = x * wo.y, q = y * wo.x;
-    VNDF_REAL ax2_low = VNDF_FMA(ax, ax, -ax2), ay2_low = VNDF_FMA(ay, ay, -ay2);
-    VNDF_REAL p_low = VNDF_FMA(x, wo.y, -p), q_low = VNDF_FMA(y, wo.x, -q);
-    VNDF_REAL low = VNDF_FMA(p, ay2_low, VNDF_FMA(p_low, ay2, -VNDF_FMA(q, ax2_low, q_low * ax2)));
-    return (vndf_impl_difference_of_products(p, ay2, q, ax2) + low) / (ax * ay);
-}
-
 // The exponent of D / sigma(wo) behind the surface, q - a^2, for a normal that faces away from wo, as a sum of two
 // numbers: q is small beside a^2 = (wo.z / l)^2, which is computed in twice the precision.
 VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL q, VNDF_REAL alpha_x,
@@ -171,7 +158,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     int front = wo.z >= VNDF_R(0.0);
     VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z, q = VNDF_FMA(sx, sx, sy * sy);
     VNDF_REAL tau = cosine / (z * v.l);
-    VNDF_REAL across = vndf_impl_slope_across(wo, x, y, v.alpha_x, v.alpha_y) / (z * v.l);
+    VNDF_REAL across = vndf_impl_difference_of_products(sx, v.y, sy, v.x) * v.rcp_l;
     VNDF_REAL steep = VNDF_FMA(tau, VNDF_FMA(VNDF_R(2.0), s.a, tau), across * across);
     struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
     int away = rounded && !front && tau < VNDF_R(0.0);
