@@ -102,6 +102,20 @@ def check_report():
             assert "not measured" not in text
 
 
+def check_readme():
+    """Its tables are those of the committed run; a changed figure is found out."""
+    def changed(readme):
+        return subprocess.run([sys.executable, source / "bench/readme_tables.py", "--check", readme, sample],
+                              capture_output=True, text=True).stderr
+
+    assert changed(source / "README.md") == "", changed(source / "README.md")
+    with tempfile.TemporaryDirectory() as folder:
+        spoilt = pathlib.Path(folder) / "README.md"
+        text = (source / "README.md").read_text()
+        spoilt.write_text(re.sub(r"(\| `ggx_sample_wm_dupuy2023` \|) [0-9.]+", r"\1 0.1", text))
+        assert "dupuy2023" in changed(spoilt)
+
+
 def check_command(clvndf):
     run = subprocess.run([clvndf, "--quiet", "bench", "--only", "jacobian_reflect/strict/float", "--repetitions", "3",
                           "--json", "-"], check=True, stdout=subprocess.PIPE)
@@ -115,5 +129,6 @@ def check_command(clvndf):
 
 check_schema()
 check_report()
+check_readme()
 if len(sys.argv) > 2:
     check_command(sys.argv[2])

@@ -1,6 +1,7 @@
-"""A small benchmark JSON for tests out of whole ones: the aggregates of the functions that the report's plots need.
+"""A small benchmark JSON for tests out of whole ones: the aggregates that the report's plots and the README need.
 
     python3 tests/support/small_bench.py tests/data/bench.json BENCH.json...
+    python3 bench/readme_tables.py README.md tests/data/bench.json
 """
 import json
 import re
@@ -12,6 +13,9 @@ FUNCTIONS = ("ggx_sample_wm_heitz_deon2014", "ggx_sample_wm_heitz2018", "ggx_sam
 # For equal time: the cost of a sample with its density.
 EQUAL_TIME = re.compile(r"vndf_ggx_(sample_wm_(walter2007|dupuy2023)_with_pdf|sample_wi_\w+_with_pdf|sigma_visible)"
                         r"/strict/float/compute")
+# For the README's table of times.
+TIMES = re.compile(r"vndf_\w+_sample_w[mi]_\w+(?<!_with_pdf)"
+                   r"/(strict/float/(stream|compute)|(builtin|cpp|published)/float/stream|strict/double/stream)")
 
 
 def rounded(value):
@@ -25,7 +29,7 @@ for path in sys.argv[2:]:
     entries = [{k: rounded(v) for k, v in b.items()} for b in data["benchmarks"]
                if b.get("aggregate_name") in ("best", "median", "cv")
                and (b["run_name"].split("/")[0].removeprefix("vndf_") in FUNCTIONS
-                    or EQUAL_TIME.fullmatch(b["run_name"])
+                    or EQUAL_TIME.fullmatch(b["run_name"]) or TIMES.fullmatch(b["run_name"])
                     or b["run_name"].startswith(("copy_40B/", "copy_48B/", "fma/")))]
     if result is None:
         result = data
