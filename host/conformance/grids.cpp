@@ -188,8 +188,8 @@ std::vector<Point> returning_points() {
         for (const double a : {.7, 1., 1.5, 2., 3., 4.})
             for (const double height : {1e-5, 3e-5, 1e-4})
                 for (const double azimuth : {0., .7, 1.7, -1.2, 3.}) {
-                    Point point = make_point(direction(-a * alpha, azimuth), {alpha, alpha}, {1, 0}, {0, 0, 1},
-                                             {.5, .5}, 1.5);
+                    Point point = make_point(direction(-a * alpha, azimuth), {alpha, alpha}, {1, 0},
+                                             {0, 0, 1}, {.5, .5}, 1.5);
                     point.wi = {-point.wo[0], -point.wo[1], height};
                     points.push_back(point);
                 }
