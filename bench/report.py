@@ -457,7 +457,8 @@ def entry_rows(bench):
         yield (name, number(best["ns_per_sample"]), number(bench.median[name]["ns_per_sample"]),
                number(100 * bench.spread.get(name, 0), "{:.0f} %"), number(event), number(best["ns_per_useful_sample"]),
                number(best.get("fraction_of_copy"), "{:.2f}"), number(best.get("speedup_over_published"), "{:.1f}"),
-               number(best.get("err_p50")), number(best.get("err_p99")), number(best.get("err_max")))
+               number(best.get("err_p50")), number(best.get("err_p99")), number(best.get("err_max")),
+               number(best.get("bias")))
 
 
 def lobe_rows(bench):
@@ -526,10 +527,10 @@ def page(benches):
         out.append(table(["target", "function", "wanted", "measured", "met"], target_rows(bench)))
     out.append("<h2>All entries</h2><p>ns a sample by the wall clock (best, median, spread as standard deviation over "
                "mean) and by the driver's event; errors in units of 2<sup>-24</sup> (double: 2<sup>-53</sup>) times "
-               "1 + condition number.</p>")
+               "1 + condition number. Bias: the largest error of an approximate sampler's cumulative distribution.</p>")
     for bench in benches:
         head = ["entry", "best", "median", "spread", "event", "useful", "of copy", "x published", "err p50", "err p99",
-                "err max"]
+                "err max", "bias"]
         out.append(f"<details><summary>{html.escape(bench.device)}</summary>{table(head, entry_rows(bench))}</details>")
     head = ["alpha", "cos", "sampler", "rejected"] + [f"{light}, {ns} ns" for ns in (0, 100) for light in LIGHTS]
     out.append("<h2>All lobes</h2><p>Rejected samples and, as in the plots, the gain over the bounded cap in equal time.</p>"

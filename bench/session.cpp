@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/known_bias.h"
 #include "conformance/samplers.h"
 #include "cpp_build.h"
 #include "error.h"
@@ -260,6 +261,10 @@ void Session::add_accuracy(Entry& entry, const Function& function, runtime::Eval
     entry.figures["err_p50"] = errors.percentile(50);
     entry.figures["err_p99"] = errors.percentile(99);
     entry.figures["err_max"] = errors.max();
+    // An approximate sampler is judged against its own map above: here its distribution against the exact one.
+    for (const conformance::Finding& finding : conformance::measure_bias(evaluator, function))
+        if (finding.check.find("CDF error") != std::string::npos)
+            entry.figures["bias"] = std::max(entry.figures["bias"], finding.figure);
 }
 
 // The part of a sampler's directions that are reflections above the surface.
