@@ -178,7 +178,7 @@ inline const std::vector<Mutant>& mutants() {
          {"chi2 of the directions", "means", "pointwise"}},
         {"bounded: no slack for the rounding of a reflection at the edge of its cap",
          "ggx_eto2023.h",
-         "VNDF_REAL slack = VNDF_R(2.0) *",
+         "VNDF_REAL slack = VNDF_R(4.0) *",
          "VNDF_REAL slack = VNDF_R(0.0) *",
          "vndf_ggx_sample_wi_eto2023",
          {"separate density positive"}},

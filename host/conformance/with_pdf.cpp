@@ -70,9 +70,11 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     }
     errors.sign.add(std::isfinite(pdf) && pdf >= 0 ? 0 : 1, i);
     if (1 + cos_theta_o < 1e-15) return;  // wo = -n: no distribution
-    // A reflection never leaves the support of its density, whatever the rounding of its direction; its half vector may
-    // leave the upper side, within rounding.
-    if (s.sampler.result == "WI" && pdf > 0 && reader.wo(row.data())[2] + s.fused[2][i] > 0)
+    // A reflection does not leave the support of its density, whatever the rounding of its direction. Its half vector may
+    // leave the upper side, within rounding; and above alpha = 2 the stretch makes more of that.
+    const auto [x, y] = reader.alpha(row.data());
+    if (s.sampler.result == "WI" && pdf > 0 && reader.wo(row.data())[2] + s.fused[2][i] > 0 &&
+        std::max(x, y) <= 2)
         errors.lost.add(s.separate[0][i] > 0 ? 0 : 1, i);
 
     R exact[4];

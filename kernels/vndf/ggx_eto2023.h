@@ -97,8 +97,9 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct
     // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
     VNDF_REAL limit = gap * wo.z * h.scale;
     VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);
-    // Rounding moves each component of wi, and so of h, by up to 2^-24: twice the effect on both terms.
-    VNDF_REAL slack = VNDF_R(2.0) * VNDF_EPSILON * h.scale *
+    // Rounding moves each component of wi, and so of h, by 2^-24, a sampler by little more: four times the effect on both
+    // terms.
+    VNDF_REAL slack = VNDF_R(4.0) * VNDF_EPSILON * h.scale *
                       (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
     int inside = wo.z <= VNDF_R(0.0) || excess > -slack;
     VNDF_REAL n = wo.z > VNDF_R(0.0) ? n_front : v.l * (v.l / (v.r + vndf_impl_abs(wo.z)));
