@@ -373,11 +373,12 @@ double condition(std::string_view sampler, const double* in, Precision precision
 }
 
 double cap_margin(std::string_view density, const double* in, Precision precision) {
+    constexpr double no_cap = std::numeric_limits<double>::infinity();
     const bool polygon = density == "vndf_ggx_pdf_wi_eto2023_polygon";
+    if (!polygon && density != "vndf_ggx_pdf_wi_eto2023") return no_cap;  // other arguments, too
     Reader<double> reader{in, precision};
     const Vec3<double> wo = reader.vector(), wi = reader.vector();
-    if (!(wo.z > 0) || (!polygon && density != "vndf_ggx_pdf_wi_eto2023"))
-        return std::numeric_limits<double>::infinity();
+    if (!(wo.z > 0)) return no_cap;
     const View<double> v = reader.stretched(wo);
     const Margin<double> margin = eto_margin(wo, wi, v, polygon ? polygon_bound(v, wo) : bound(v, wo));
     return margin.inside / (margin.per_unit * (precision == Precision::f32 ? 0x1p-24 : 0x1p-53));
