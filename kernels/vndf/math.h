@@ -110,7 +110,7 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
     // x = 2^k m with m in [sqrt(1/2), sqrt(2)); log(m) = 2 s + s^3 p(s^2) with s = (m - 1) / (m + 1), arranged so that
     // only small terms are rounded.
     VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440));
-    VNDF_INT bits = VNDF_AS_INT(x) - low;
+    VNDF_INT bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;  // of a number below 0 the difference might overflow
     VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL f = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
