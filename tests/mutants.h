@@ -181,7 +181,7 @@ inline const std::vector<Mutant>& mutants() {
          "VNDF_REAL slack = VNDF_R(4.0) *",
          "VNDF_REAL slack = VNDF_R(0.0) *",
          "vndf_ggx_sample_wi_eto2023",
-         {"separate density positive"}},
+         {"separate density positive at the samples"}},
         {"bounded sampling with the plain density",
          "ggx_eto2023.h",
          "VNDF_FMA(bound.k, wo.z, v.r)",
