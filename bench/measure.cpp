@@ -52,11 +52,7 @@ void register_entry(const Entry& entry, int repetitions, const std::function<voi
         entry.name.c_str(),
         [&entry, step](benchmark::State& state) {
             // Others had their turns since the last one: code is to be loaded again, by PoCL too.
-            if (entry.warm) {
-                entry.warm();
-            } else {
-                entry.launch();
-            }
+            entry.warm();
             double wall_s = 0, event_s = 0;
             for (auto _ : state) {
                 const Timing timing = entry.launch();

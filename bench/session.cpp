@@ -160,6 +160,7 @@ Entry Session::long_entry(const cl::Kernel& kernel, std::size_t items, std::size
     Entry entry;
     entry.samples = static_cast<double>(items);
     entry.launch = [this, kernel, items] { return launch(kernel, items); };
+    entry.warm = entry.launch;
     return entry;
 }
 

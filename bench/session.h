@@ -23,7 +23,7 @@ struct Entry {
     std::string name;
     double samples = 0;  // of one launch
     std::function<Timing()> launch;
-    std::function<void()> warm;             // before it, untimed; empty: a launch
+    std::function<void()> warm;             // before it, untimed
     std::map<std::string, double> figures;  // counters that do not depend on time: err_p50, ...
     double useful = 1;                      // the part of the samples that are not rejected
     std::string copy, published;            // names of the entries to compare with; empty: none

@@ -240,8 +240,8 @@ VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 w
     VNDF_REAL rcp_r = VNDF_R(1.0) / v.r;
     f.alpha_x = v.alpha_x;
     f.alpha_y = v.alpha_y;
-    f.ex = v.rcp_l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
-    f.ey = v.y * v.rcp_l;
+    f.ex = vndf_impl_azimuth_x(v);
+    f.ey = vndf_impl_azimuth_y(v);
     f.z = v.z;
     f.l = v.l;
     f.slopes = vndf_impl_beckmann_incidence(v.z * rcp_r, v.l * rcp_r);

@@ -20,8 +20,8 @@ VNDF_FN struct vndf_impl_incidence vndf_impl_ggx_incidence(VNDF_REAL3 wo, VNDF_R
     i.slope = vndf_impl_ggx_slope(cap.z, cap.sine, cap.p, cap.q, cap.sqrt_p, vndf_impl_u(u1));
     i.alpha_x = v.alpha_x;
     i.alpha_y = v.alpha_y;
-    i.ex = v.rcp_l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
-    i.ey = v.y * v.rcp_l;
+    i.ex = vndf_impl_azimuth_x(v);
+    i.ey = vndf_impl_azimuth_y(v);
     i.z = v.z;
     i.sqrt_p = cap.sqrt_p;
     return i;
