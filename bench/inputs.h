@@ -1,7 +1,7 @@
 // The inputs that functions are timed on.
 #pragma once
 
-#include "conformance/points.h"
+#include "conformance/inputs/points.h"
 
 namespace vndf::bench {
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "conformance/known_bias.h"
-#include "conformance/samplers.h"
+#include "conformance/judge/known_bias.h"
+#include "conformance/judge/samplers.h"
 #include "cpp_build.h"
 #include "error.h"
 #include "inputs.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "conformance/points.h"
+#include "conformance/inputs/points.h"
 #include "kernels.h"
 #include "runtime/device_evaluator.h"
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "conformance/points.h"
+#include "conformance/inputs/points.h"
 #include "runtime/evaluator.h"
 
 namespace vndf::bench {

@@ -43,7 +43,7 @@ std::vector<Function> read_registry() {
         f.kind = kind_, f.bound = bound_;                                  \
         all.push_back(f);                                                  \
     }
-#include "../kernels/samplers.def"
+#include "../kernels/registry.def"
     return all;
 }
 

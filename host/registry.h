@@ -1,4 +1,4 @@
-// The registry kernels/samplers.def as C++ data: what exists, with which arguments, results and bounds.
+// The registry kernels/registry.def as C++ data: what exists, with which arguments, results and bounds.
 #pragma once
 
 #include <string>

@@ -18,8 +18,8 @@ except ImportError as missing:
     sys.exit(77)
 
 source = pathlib.Path(sys.argv[1])
-schema = json.loads((source / "tests/data/bench.schema.json").read_text())
-sample = source / "tests/data/bench.json"
+schema = json.loads((source / "bench/report/schema.json").read_text())
+sample = source / "bench/results/pocl-3.1.json"
 
 
 def valid(data):
@@ -90,10 +90,10 @@ def check_report():
     with tempfile.TemporaryDirectory() as folder:
         for inputs in ([sample], [sample, sample]):
             page = pathlib.Path(folder) / "index.html"
-            subprocess.run([sys.executable, source / "bench/report.py", page, *inputs], check=True)
+            subprocess.run([sys.executable, source / "bench/report/report.py", page, *inputs], check=True)
             text = page.read_text()
             drawn = figures(text)
-            plots = len(re.findall(r"^    \(\"", (source / "bench/report.py").read_text(), re.M))
+            plots = len(re.findall(r"^    \(\"", (source / "bench/report/report.py").read_text(), re.M))
             assert plots >= 5 and len(drawn) == plots, f"{len(drawn)} figures of {plots}"
             for i, figure in enumerate(drawn):
                 marks = len(re.findall(r'<g id="patch_|<g id="line2d_', figure))
@@ -105,7 +105,7 @@ def check_report():
 def check_readme():
     """Its tables are those of the committed run; a changed figure is found out."""
     def changed(readme):
-        return subprocess.run([sys.executable, source / "bench/readme_tables.py", "--check", readme, sample],
+        return subprocess.run([sys.executable, source / "bench/report/readme_tables.py", "--check", readme, sample],
                               capture_output=True, text=True)
 
     same = changed(source / "README.md")

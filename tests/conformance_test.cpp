@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "conformance/check.h"
-#include "conformance/grids.h"
-#include "conformance/lobes.h"
+#include "conformance/runs/check.h"
+#include "conformance/inputs/grids.h"
+#include "conformance/judge/lobes.h"
 #include "support/catch.h"
 #include "support/command.h"
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "conformance/check.h"
-#include "conformance/digest.h"
-#include "conformance/grids.h"
+#include "conformance/runs/check.h"
+#include "conformance/judge/digest.h"
+#include "conformance/inputs/grids.h"
 #include "runtime/device_evaluator.h"
 #include "support/catch.h"
 #include "support/command.h"

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "conformance/parallel.h"
+#include "parallel.h"
 
 namespace {
 

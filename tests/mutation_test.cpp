@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "conformance/check.h"
+#include "conformance/runs/check.h"
 #include "mutants.h"
 #include "support/catch.h"
 

@@ -45,7 +45,7 @@ for real in float double; do
 done
 
 : >"$work/none"
-cat "$kernels"/vndf/*.h $extra | sed 's://.*::' |
+cat "$kernels"/vndf/*.h "$kernels"/vndf/impl/*.h $extra | sed 's://.*::' |
     sed -nE 's/^ *(typedef .*[ *]|(struct|union|enum|class|namespace|using) +)([A-Za-z_0-9]+) *[;{=].*/\3/p' |
     sort -u >"$work/types"
 judge "$work/none" "$work/types" 3 "types"

@@ -1,8 +1,8 @@
 // Policies and build options told apart: what is promised holds, and what breaks a promise is named.
 #include <nlohmann/json.hpp>
 
-#include "conformance/policies.h"
-#include "conformance/samplers.h"
+#include "conformance/runs/policies.h"
+#include "conformance/judge/samplers.h"
 #include "support/command.h"
 
 using namespace vndf;

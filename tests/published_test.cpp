@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "conformance/grids.h"
-#include "conformance/known_bias.h"
-#include "conformance/lobes.h"
+#include "conformance/inputs/grids.h"
+#include "conformance/judge/known_bias.h"
+#include "conformance/judge/lobes.h"
 #include "runtime/device_evaluator.h"
 #include "support/catch.h"
 

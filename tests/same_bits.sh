@@ -28,7 +28,7 @@ mkdir -p "$work" || exit 1
     "clang++ -O0 -march=native" "clang++ -O1 -march=native" "clang++ -O2 -march=native" "clang++ -O3 -march=native"
 
 # What the bits depend on; the rest comes from the libraries of BUILD.
-sources="host/runtime/host_build.cpp host/conformance/digest.cpp host/conformance/points.cpp host/conformance/grids.cpp
+sources="host/runtime/host_build.cpp host/conformance/judge/digest.cpp host/conformance/inputs/points.cpp host/conformance/inputs/grids.cpp
     tests/support/digest_host.cpp"
 
 # digests_of COMPILER OPTION...: the digests of this build, on stdout.

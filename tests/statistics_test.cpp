@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "conformance/statistics.h"
+#include "conformance/judge/statistics.h"
 #include "support/catch.h"
 
 using namespace vndf::conformance;

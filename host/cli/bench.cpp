@@ -18,7 +18,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
-#include "conformance/check.h"
+#include "conformance/runs/check.h"
 #include "error.h"
 #include "runtime/sources.h"
 
@@ -67,7 +67,7 @@ std::string read_file(const std::string& path) {
 void make_report(const std::string& folder) {
     const auto& files = runtime::embedded_sources();
     const auto script = std::find_if(
-        files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report.py"; });
+        files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report/report.py"; });
     const std::filesystem::path work(folder);
     const auto path = [&](const char* name) { return (work / name).string(); };
     // The paths go by the environment, so that no name has to be quoted.

@@ -9,9 +9,9 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
-#include "conformance/check.h"
-#include "conformance/digest.h"
-#include "conformance/exhaustive.h"
+#include "conformance/runs/check.h"
+#include "conformance/judge/digest.h"
+#include "conformance/runs/exhaustive.h"
 #include "error.h"
 
 namespace vndf::cli {

@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
-#include "conformance/policies.h"
+#include "conformance/runs/policies.h"
 #include "error.h"
 
 namespace vndf::cli {

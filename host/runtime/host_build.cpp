@@ -28,7 +28,7 @@ namespace {
     VNDF_HOST(name, arguments, result)                                                                   \
     VNDF_HOST(name##_with_pdf, arguments, result##_PDF)
 #define VNDF_FUNCTION(name, ndf, arguments, result, kind, bound, source) VNDF_HOST(name, arguments, result)
-#include "../../kernels/samplers.def"
+#include "../../kernels/registry.def"
 
 struct Entry {
     const char* name;
@@ -41,7 +41,7 @@ constexpr Entry entries[] = {
     VNDF_ENTRY(name)                                                                                     \
     VNDF_ENTRY(name##_with_pdf)
 #define VNDF_FUNCTION(name, ndf, arguments, result, kind, bound, source) VNDF_ENTRY(name)
-#include "../../kernels/samplers.def"
+#include "../../kernels/registry.def"
 };
 
 }  // namespace

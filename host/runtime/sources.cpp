@@ -13,7 +13,7 @@
 namespace vndf::runtime {
 namespace {
 
-constexpr std::string_view registry_path = "kernels/samplers.def";
+constexpr std::string_view registry_path = "kernels/registry.def";
 
 std::vector<std::string> split_lines(std::string_view text) {
     std::vector<std::string> lines;

@@ -26,7 +26,7 @@ struct Substitution {
 
 // What assemble() changes on the way.
 struct Assembly {
-    std::vector<std::string> functions;  // registered names kept in samplers.def; empty: all
+    std::vector<std::string> functions;  // registered names kept in registry.def; empty: all
     std::vector<Substitution> substitutions;
 };
 

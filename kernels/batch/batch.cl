@@ -7,4 +7,4 @@
     VNDF_ENTRY_POINT(vndf_batch_##name##_with_pdf, name##_with_pdf, arguments, result##_PDF)
 #define VNDF_FUNCTION(name, ndf, arguments, result, kind, bound, source)                                     \
     VNDF_ENTRY_POINT(vndf_batch_##name, name, arguments, result)
-#include "../samplers.def"
+#include "../registry.def"

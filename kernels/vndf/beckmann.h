@@ -14,7 +14,7 @@
 #define VNDF_BECKMANN_H
 
 #include "config.h"
-#include "math.h"
+#include "impl/math.h"
 #include "frame.h"
 
 // A direction as the slopes of the stretched surface see it.

@@ -6,7 +6,7 @@
 #define VNDF_FRAME_H
 
 #include "config.h"
-#include "math.h"
+#include "impl/math.h"
 
 #if VNDF_DOUBLE
 #define VNDF_REAL_MAX 1.79769313486231570815e+308

@@ -10,7 +10,7 @@
 #define VNDF_GGX_H
 
 #include "config.h"
-#include "math.h"
+#include "impl/math.h"
 #include "frame.h"
 
 // q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its

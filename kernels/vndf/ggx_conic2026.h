@@ -1,19 +1,19 @@
 // GGX reflections without waste: no sample falls below the horizon, and no reflection above it is lost.
 //
 // Source: this package; derivation, figures and how to verify it: ggx_conic2026.md. No earlier publication was found.
-//     In the axes of the cone of ggx_conic2026_cone.h, the stretched normals that reflect above the horizon project onto
+//     In the axes of the cone of impl/cone.h, the stretched normals that reflect above the horizon project onto
 //     the ellipse (m1 / p)^2 + (m2 / q)^2 < 1. Three straight moves take the point (p Y, q X) of it to a normal m, and two
 //     of them are shears that preserve the projected area s . m:
 //       P  = (M, p Y, q X)  on the chord between the two rim points of the slice m1 = p Y, M = m0 at both;
 //       P2 = P + epsilon s' on the chord between the two rim points with that component across s', s' = s without s1;
 //       m  = P2 + tau s     on the sphere.
 //     All three steps are roots of quadratics, written as sums of positive terms.
-// Symbols: those of ggx_conic2026_cone.h; s = (s0, s1, s2) in the axes e0, e1, e2, n = |s'|, c0 = s0 / n, c2 = s2 / n,
+// Symbols: those of impl/cone.h; s = (s0, s1, s2) in the axes e0, e1, e2, n = |s'|, c0 = s0 / n, c2 = s2 / n,
 //     p^2 = mu / (mu + mu1), q^2 = mu / (mu + mu2), rho = (mu1 - mu2) / (mu + mu1), a = c0^2 + rho c2^2.
 #ifndef VNDF_GGX_CONIC2026_H
 #define VNDF_GGX_CONIC2026_H
 
-#include "ggx_conic2026_cone.h"
+#include "impl/cone.h"
 
 // --- What both forms share ---
 

@@ -28,7 +28,7 @@
 #define VNDF_VERSION_PATCH 0
 
 #include "config.h"
-#include "math.h"
+#include "impl/math.h"
 #include "frame.h"
 
 #include "ggx.h"

@@ -1,4 +1,4 @@
-// The claims of kernels/vndf/ggx_conic2026.md in full:
+// The claims of kernels/doc/ggx_conic2026.md in full:
 //   conic_claims [SAMPLES [DIRECTIONS [LOBES]]]      1e10, 1e9 and 2000 unless given; exit status 1 if one fails
 #include <cstdio>
 #include <cstdlib>

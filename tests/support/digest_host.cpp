@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "conformance/digest.h"
+#include "conformance/judge/digest.h"
 
 int main(int argc, char** argv) {
     using namespace vndf;

@@ -1,4 +1,4 @@
-// The accuracy of kernels/vndf/math.h (strict), as stated at each function, for the VNDF_REAL of the including test.
+// The accuracy of kernels/vndf/impl/math.h (strict), as stated at each function, for the VNDF_REAL of the including test.
 #pragma once
 
 #include <boost/math/special_functions/erf.hpp>
@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-#include "../../kernels/vndf/math.h"
+#include "../../kernels/vndf/impl/math.h"
 #include "catch.h"
 
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The figure of kernels/vndf/ggx_conic2026.md: which stretched normals reflect above the horizon (needs matplotlib).
+"""The figure of kernels/doc/ggx_conic2026.md: which stretched normals reflect above the horizon (needs matplotlib).
 
-    python3 tests/support/plot_conic.py > kernels/vndf/ggx_conic2026.svg
+    python3 tests/support/plot_conic.py > kernels/doc/ggx_conic2026.svg
 
 The horizon's curve is drawn from its definition, the half vectors of wo and (cos phi, sin phi, 0), stretched back.
 """

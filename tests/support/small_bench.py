@@ -1,7 +1,7 @@
 """A small benchmark JSON for tests out of whole ones: the aggregates that the report's plots and the README need.
 
-    python3 tests/support/small_bench.py tests/data/bench.json BENCH.json...
-    python3 bench/readme_tables.py README.md tests/data/bench.json
+    python3 tests/support/small_bench.py bench/results/pocl-3.1.json BENCH.json...
+    python3 bench/report/readme_tables.py README.md bench/results/pocl-3.1.json
 """
 import json
 import re

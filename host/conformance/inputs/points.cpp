@@ -1,0 +1,132 @@
+#include "conformance/inputs/points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace vndf::conformance {
+namespace {
+
+double dot(const Direction& a, const Direction& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Direction normalised(Direction a) {
+    const double length = std::sqrt(dot(a, a));
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+// `local` in a right-handed frame whose z axis is the unit vector n. The half turn about n + z maps z to n;
+// for n.z < 0 the one about n - z, after a turn about x, keeps the frame well conditioned.
+Direction to_frame(const Direction& n, Direction local) {
+    const double sign = n[2] < 0 ? -1 : 1;
+    if (sign < 0) local = {local[0], -local[1], -local[2]};
+    const Direction axis = normalised({n[0], n[1], n[2] + sign});
+    const double twice = 2 * dot(axis, local);
+    return {twice * axis[0] - local[0], twice * axis[1] - local[1], twice * axis[2] - local[2]};
+}
+
+// cos and sin of a moderate angle by + - * / alone: mathematical libraries disagree about last bits, and points must be
+// the same everywhere (digest.h). Taylor series about the nearest quarter turn, up to x^17; the rest is below 2^-54.
+std::array<double, 2> circle_point(double phi) {
+    constexpr double quarter = 1.57079632679489661923, quarter_rest = 6.123233995736766036e-17;
+    const double turns = std::nearbyint(phi / quarter);
+    const double x = (phi - turns * quarter) - turns * quarter_rest;
+    double c = 1, s = 1;
+    for (int k = 16; k > 0; k -= 2) {
+        c = 1 - x * x / ((k - 1) * k) * c;
+        s = 1 - x * x / (k * (k + 1)) * s;
+    }
+    s *= x;
+    switch (static_cast<int>(turns) & 3) {
+        case 0:
+            return {c, s};
+        case 1:
+            return {-s, c};
+        case 2:
+            return {-c, -s};
+        default:
+            return {s, -c};
+    }
+}
+
+}  // namespace
+
+Direction direction(double cos_theta, double phi) {
+    if (std::abs(cos_theta) == 1) return {0, 0, cos_theta};  // +0, whatever the azimuth
+    const double sin_theta = std::sqrt((1 - cos_theta) * (1 + cos_theta));
+    const auto [x, y] = circle_point(phi);
+    return {sin_theta * x, sin_theta * y, cos_theta};
+}
+
+Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,
+                 std::array<double, 2> u, double eta) {
+    Point point;
+    point.alpha = alpha;
+    point.u = u;
+    point.eta = eta;
+    point.cos_theta = wo[2];
+    const Direction h = direction(normal.cos_theta, normal.phi);
+    const Direction wm = normalised({alpha[0] * h[0], alpha[1] * h[1], h[2]});
+    const double twice = 2 * dot(wo, wm);
+    const Direction wi{twice * wm[0] - wo[0], twice * wm[1] - wo[1], twice * wm[2] - wo[2]};
+    point.slope = {-wm[0] / wm[2], -wm[1] / wm[2]};
+    point.x = -h[0] / h[2];
+    const bool local = n == Direction{0, 0, 1};
+    point.n = n;
+    point.wo = local ? wo : to_frame(n, wo);
+    point.wm = local ? wm : to_frame(n, wm);
+    point.wi = local ? wi : to_frame(n, wi);
+    return point;
+}
+
+int column(const Function& function, std::string_view name) {
+    const auto found = std::find(function.inputs.begin(), function.inputs.end(), name);
+    return found == function.inputs.end() ? -1 : static_cast<int>(found - function.inputs.begin());
+}
+
+double Point::scalar(std::string_view name) const {
+    const auto component = [&](std::string_view prefix, const auto& values) -> const double* {
+        if (name.size() != prefix.size() + 2 || name.substr(0, prefix.size()) != prefix) return nullptr;
+        const std::size_t i = static_cast<std::size_t>(name.back() - 'x');
+        return name[prefix.size()] == '_' && i < values.size() ? &values[i] : nullptr;
+    };
+    for (const auto& [prefix, values] : {std::pair<std::string_view, const Direction*>{"wo", &wo},
+                                         {"n", &n},
+                                         {"wm", &wm},
+                                         {"wi", &wi},
+                                         {"w", &wo}})
+        if (const double* value = component(prefix, *values)) return *value;
+    if (const double* value = component("alpha", alpha)) return *value;
+    if (const double* value = component("slope", slope)) return *value;
+    for (const auto& [known, value] : {std::pair<std::string_view, double>{"alpha", alpha[0]},
+                                       {"u1", u[0]},
+                                       {"u2", u[1]},
+                                       {"eta", eta},
+                                       {"cos_theta", cos_theta},
+                                       {"x", x}})
+        if (name == known) return value;
+    throw std::invalid_argument("no grid for the argument " + std::string(name));
+}
+
+std::vector<double> Table::row(std::size_t i) const {
+    std::vector<double> result;
+    for (const std::vector<double>& values : columns) result.push_back(values[i]);
+    return result;
+}
+
+Table tabulate(const Function& function, const std::vector<Point>& points, Rounding rounding) {
+    Table table;
+    for (const std::string& name : function.inputs) {
+        std::vector<double>& values = table.columns.emplace_back();
+        values.reserve(points.size());
+        for (const Point& point : points) {
+            const double value = point.scalar(name);
+            values.push_back(rounding == Rounding::to_float ? static_cast<float>(value) : value);
+        }
+    }
+    return table;
+}
+
+}  // namespace vndf::conformance

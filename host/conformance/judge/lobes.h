@@ -1,0 +1,37 @@
+// Statistical checks of a sampler's directions for one lobe: what the samples say about their density.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conformance/judge/errors.h"
+#include "conformance/judge/statistics.h"
+
+namespace vndf::conformance {
+
+// How far a distribution is known to be from the registered density; zero for exact samplers.
+struct KnownBias {
+    double distance = 0;    // of the cumulative distributions of the pivots
+    double chi_square = 0;  // sum (p - q)^2 / q over the cells of any histogram
+    double mean = 0;        // of the mean of any component, in its standard deviations
+};
+
+// One statistical test of one lobe.
+struct LobeTest {
+    const char* name;  // "chi2 of the pivots", ...
+    bool is_p = true;
+    double figure = 1;  // p, or for means the deviation in tolerances
+    std::string detail;
+};
+
+// The tests that a lobe of this sampler takes, judged or not: the run's count for Sidak.
+std::size_t tests_per_lobe(const Function& sampler);
+
+// The n directions (x, y, z), drawn for the sampler's inputs `row` (u is not read), against the reference: the
+// pivots (32 x 32 chi-squared, two Kolmogorov-Smirnov), the histogram of the first quarter of the directions, first
+// and second moments. T is float or double, `level` the rate of false alarms of one test.
+template <class T>
+std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
+                                const T* x, const T* y, const T* z, double level, const KnownBias& bias);
+
+}  // namespace vndf::conformance

@@ -1,0 +1,150 @@
+#include "conformance/judge/samplers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "conformance/inputs/grids.h"
+#include "parallel.h"
+#include "conformance/inputs/rows.h"
+#include "conformance/judge/values.h"
+
+namespace vndf::conformance {
+namespace {
+
+// The angle between two vectors, accurate when small.
+template <class R>
+R angle(const R* a, const R* b) {
+    const R x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    return std::atan2(std::sqrt(x * x + y * y + z * z), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+enum class Region { front, back, outside, undefined };
+
+// Where a row lies: outside a map's documented domain the result is a documented vector; for wo = -n (no
+// visible normal) it is any unit vector.
+Region region(const Function& sampler, const RowReader& reader, const double* row) {
+    if (!reader.has_wo()) return Region::front;
+    const double cos_theta_o = reader.cos_theta_o(row);
+    if (cos_theta_o >= 0) return Region::front;
+    if (sampler.domain == Domain::upper) return Region::outside;
+    return 1 + cos_theta_o < 1e-15 ? Region::undefined : Region::back;
+}
+
+// Errors of the plain form by region, and of its invariants (in epsilon, or counts).
+struct MapErrors {
+    Errors front, back, core, length, below, behind, bad;
+    void merge(const MapErrors& other) {
+        front.merge(other.front), back.merge(other.back), core.merge(other.core), length.merge(other.length);
+        below.merge(other.below), behind.merge(other.behind), bad.merge(other.bad);
+    }
+};
+
+using Columns = std::vector<std::vector<double>>;
+
+// `condition`: of the map at this row, infinite where it has no direction. Where rounding of the inputs leaves the
+// direction undetermined, it is held to no side of wo. About a world-space n no component is that side: the height
+// has the error of the map.
+void add_invariants(const Function& sampler, const RowReader& reader, const double* row, const double* result,
+                    double condition, double unit, std::size_t i, MapErrors& errors) {
+    const Direction d{result[0], result[1], result[2]};
+    const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
+    errors.bad.add(finite ? 0 : 1, i);
+    if (!finite) return;
+    errors.length.add(std::abs(length(d) - 1) / unit, i);
+    if (!std::isfinite(condition) || sampler.result != "WM") return;
+    const double depth = std::max(0.0, -dot(d, reader.n(row))) / unit;
+    errors.below.add(reader.has_n() ? depth / (1 + condition) : depth, i);
+    if (reader.has_wo() && is_settled(condition))
+        errors.behind.add(std::max(0.0, -dot(d, reader.wo(row)) / length(reader.wo(row))) / unit, i);
+}
+
+template <class R>
+MapErrors map_errors(const Function& sampler, const Table& table, const Columns& results, Real real) {
+    const auto evaluation = reference::find_evaluation<R>(sampler.name);
+    const auto conditioning = reference::find_condition(sampler.name);
+    const RowReader reader(sampler);
+    const double unit = epsilon(real);
+    std::vector<MapErrors> parts(thread_count());
+    parallel_for(table.rows(), 512, [&](unsigned thread, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::vector<double> row = table.row(i);
+            const Region where = region(sampler, reader, row.data());
+            const bool defined = where == Region::front || where == Region::back;
+            const double result[3] = {results[0][i], results[1][i], results[2][i]};
+            MapErrors& errors = parts[thread];
+            const double condition =
+                defined ? conditioning(row.data(), precision(real)) : std::numeric_limits<double>::infinity();
+            add_invariants(sampler, reader, row.data(), result, condition, unit, i, errors);
+            if (!std::isfinite(condition)) continue;  // no direction, or a true singularity of the map
+            const std::vector<R> in(row.begin(), row.end());
+            R exact[4];
+            evaluation(in.data(), exact, precision(real));
+            const R wide[3] = {result[0], result[1], result[2]};
+            const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
+            (where == Region::front ? errors.front : errors.back).add(error, i);
+            if (in_core(reader, row.data())) errors.core.add(error, i);
+        }
+    });
+    for (std::size_t i = 1; i < parts.size(); ++i) parts[0].merge(parts[i]);
+    return parts[0];
+}
+
+}  // namespace
+
+Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
+    if (function.kind != Kind::sampler) return value_errors(evaluator, function, table);
+    const Columns results = evaluate(evaluator, function, table);
+    const Real real = evaluator.input_real();
+    // A _with_pdf form returns the plain form's direction first.
+    const std::string plain = function.name.substr(0, function.name.find("_with_pdf"));
+    const Function& sampler = *find_function(plain);
+    MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
+                                         : map_errors<long double>(sampler, table, results, real);
+    errors.front.merge(errors.back);
+    return errors.front;
+}
+
+Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options) {
+    std::vector<Point> points = random_points(function, options.random_points, options.seed);
+    const std::vector<Point> hard = hard_points(function);
+    for (std::size_t i = 0; i < hard.size(); i += options.hard_stride) points.push_back(hard[i]);
+    for (const Point& point : guard_points(function)) points.push_back(point);
+    return tabulate(function, points, real == Real::f32 ? Rounding::to_float : Rounding::none);
+}
+
+std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function& sampler,
+                                   const PointwiseOptions& options) {
+    const Real real = evaluator.input_real();
+    const Table table = pointwise_table(sampler, real, options);
+    const Columns results = evaluate(evaluator, sampler, table);
+    const MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
+                                               : map_errors<long double>(sampler, table, results, real);
+    const double factor = slack(options.math), loose = options.math == Math::native ? 8 : 1;
+    const bool wi = sampler.result == "WI", world = column(sampler, "n_x") >= 0;
+    const double front = real == Real::f32 ? sampler.p99_front * factor : 20 * factor;
+    const double back = real == Real::f32 ? sampler.p99_back * factor : 20 * factor;
+    // The core's maximum, as a multiple of its 99th percentile: half-vector maps lose most at silhouettes,
+    // the Beckmann maps where they switch branches.
+    const double maximum = sampler.ndf == Ndf::beckmann ? 64 : wi ? 32 : 16;
+
+    std::vector<Finding> findings;
+    const auto add = [&](const char* check, double figure, double limit, const char* unit, const Errors& e) {
+        findings.push_back(make_finding(check, figure, limit, unit, e, sampler, table));
+    };
+    const char* const unit = "eps (1 + cond)";
+    add("pointwise, front, p99", errors.front.percentile(99), front, unit, errors.front);
+    if (errors.back.count()) add("pointwise, back, p99", errors.back.percentile(99), back, unit, errors.back);
+    add("pointwise, core, p99.9", errors.core.percentile(99.9), 2 * front, unit, errors.core);
+    add("pointwise, core, maximum", errors.core.max(), maximum * front, unit, errors.core);
+    add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
+    add("unit length", errors.length.max(), (wi ? 8 : 4) * loose, "eps", errors.length);
+    if (errors.below.count())
+        add("normal above the surface", errors.below.max(), world ? 4 * loose : 0, world ? unit : "eps",
+            errors.below);
+    if (errors.behind.count()) add("normal faces wo", errors.behind.max(), 4 * loose, "eps", errors.behind);
+    return findings;
+}
+
+}  // namespace vndf::conformance

@@ -1,0 +1,167 @@
+#include "conformance/judge/values.h"
+
+#include <cmath>
+#include <limits>
+
+#include "parallel.h"
+#include "conformance/inputs/rows.h"
+
+namespace vndf::conformance {
+namespace {
+
+// In which unit a function's relative error is judged beside epsilon.
+enum class Unit { plain, exponent, condition };
+
+// Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function.
+// Geometry, the marginals of the slopes (differences, roots) and the functions about a world-space normal
+// (whose products n . w are rounded) are judged by their condition.
+Unit unit_of(const Function& function) {
+    if (function.kind == Kind::geometry || column(function, "cos_theta") >= 0 || column(function, "n_x") >= 0)
+        return Unit::condition;
+    return function.ndf == Ndf::beckmann ? Unit::exponent : Unit::plain;
+}
+
+// The exponent of the Beckmann function: of its normal or slope, or of the angle of its direction.
+double exponent(const Function& function, const RowReader& reader, const double* row) {
+    const auto alpha = reader.alpha(row);
+    if (const int slope = column(function, "slope_x"); slope >= 0)
+        return beckmann_exponent({row[slope], row[slope + 1], 1}, alpha);
+    if (reader.has_wm()) return beckmann_exponent(reader.wm(row), alpha);
+    const Direction wo = reader.wo(row), wi = reader.wi(row);
+    if (function.kind == Kind::density)
+        return beckmann_exponent({wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]}, alpha);
+    const auto angle = [&](const Direction& w) {  // cot^2 of the stretched angle
+        const double x = alpha[0] * w[0], y = alpha[1] * w[1];
+        return w[2] * w[2] / (x * x + y * y);
+    };
+    return reader.has_wi() ? std::max(angle(wo), angle(wi)) : angle(wo);
+}
+
+// How much wo . wm loses to cancellation, which literal arguments do not help.
+double cancellation(const RowReader& reader, const double* row) {
+    if (!reader.has_wo() || !reader.has_wm()) return 1;
+    const Direction o = reader.wo(row), m = reader.wm(row);
+    const double terms = std::abs(o[0] * m[0]) + std::abs(o[1] * m[1]) + std::abs(o[2] * m[2]);
+    return std::max(1.0, terms / std::abs(dot(o, m)));
+}
+
+// Whether the reference's map takes its u back to the direction of this row, and that is the mirror image of wo. It is not
+// where wi is below the horizon, or where rounding has left so little of the half vector h that wo . h is not |h|^2 / 2.
+bool is_inverse(const RowReader& reader, const double* row, const double* u, reference::Precision precision) {
+    const Direction o = reader.wo(row), d = reader.wi(row);
+    const Direction h{o[0] + d[0], o[1] + d[1], o[2] + d[2]};
+    if (!(std::abs(2 * dot(o, h) - dot(h, h)) < 0x1p-10 * dot(h, h))) return false;
+    const std::array<double, 2> alpha = reader.alpha(row);
+    const double in[7] = {o[0], o[1], o[2], alpha[0], alpha[1], u[0], u[1]};
+    double back[4];
+    reference::find_evaluation<double>("vndf_ggx_sample_wi_conic2026")(in, back, precision);
+    const Direction off{back[0] - d[0], back[1] - d[1], back[2] - d[2]};
+    return length(off) < 0x1p-22;
+}
+
+struct Judge {
+    const Function& function;
+    const Table& table;
+    const std::vector<std::vector<double>>& results;
+    Real real;
+    Unit unit;
+    RowReader reader;
+};
+
+// error / allowance, where NaN is the worst of errors and an infinite allowance no judgement (NaN).
+double settle(double error, double allowance) {
+    if (!std::isfinite(allowance)) return std::numeric_limits<double>::quiet_NaN();
+    if (std::isnan(error)) return std::numeric_limits<double>::infinity();
+    return error == 0 ? 0 : error / allowance;
+}
+
+// The error of row i in its unit; NaN if the row is not judged.
+template <class R>
+double error_at(const Judge& j, std::size_t i) {
+    constexpr double skip = std::numeric_limits<double>::quiet_NaN();
+    const double unit = epsilon(j.real), smallest = j.real == Real::f32 ? 0x1p-126 : 0x1p-1022;
+    const double largest = j.real == Real::f32 ? 0x1.fffffep127 : 0x1.fffffffffffffp1023;
+    const std::vector<double> row = j.table.row(i);
+    const std::vector<R> in(row.begin(), row.end());
+    R exact[4];
+    reference::find_evaluation<R>(j.function.name)(in.data(), exact, precision(j.real));
+    R size = 0, difference = 0;
+    for (std::size_t k = 0; k < j.function.outputs.size(); ++k) {
+        R delta = static_cast<R>(j.results[k][i]) - exact[k];
+        if (j.function.outputs[k] == "u1") delta -= std::nearbyint(delta);  // an azimuth
+        size += exact[k] * exact[k];
+        difference += delta * delta;
+    }
+    size = std::sqrt(size), difference = std::sqrt(difference);
+    // Near the sign of a rounded product and outside the range of the type there is no relative error.
+    const double lost = cancellation(j.reader, row.data());
+    if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
+    if (at_edge(j.function, row.data(), j.real)) return skip;
+    if (j.function.result == "U") {
+        const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
+        if (!is_inverse(j.reader, row.data(), u, precision(j.real))) return skip;
+    }
+    if (size < smallest && difference <= 2 * smallest) return 0;
+    if (j.unit == Unit::condition) {
+        const double condition = absolute_condition(
+            j.function, reference::find_evaluation<double>(j.function.name), row.data(), precision(j.real));
+        if (j.function.result == "U" && !is_settled(condition)) return skip;
+        return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
+    }
+    if (size < smallest) return std::numeric_limits<double>::infinity();
+    double allowance = lost;
+    if (j.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
+    return settle(static_cast<double>(difference / size), unit * allowance);
+}
+
+template <class R>
+Errors judged_errors(const Judge& judge) {
+    std::vector<Errors> parts(thread_count());
+    parallel_for(judge.table.rows(), 256, [&](unsigned thread, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double error = error_at<R>(judge, i);
+            if (!std::isnan(error)) parts[thread].add(error, i);
+        }
+    });
+    for (std::size_t i = 1; i < parts.size(); ++i) parts[0].merge(parts[i]);
+    return parts[0];
+}
+
+}  // namespace
+
+Errors value_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
+    const Real real = evaluator.input_real();
+    const auto results = evaluate(evaluator, function, table);
+    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    return real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
+}
+
+std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function& function,
+                                  const PointwiseOptions& options) {
+    const Real real = evaluator.input_real();
+    const Table table = pointwise_table(function, real, options);
+    const auto results = evaluate(evaluator, function, table);
+    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    const Errors errors =
+        real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
+    Errors bad;
+    const bool density = function.kind == Kind::density;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        for (const auto& column : results)
+            bad.add(std::isfinite(column[i]) && (!density || column[i] >= 0) ? 0 : 1, i);
+
+    const char* const units[] = {"eps", "eps (1 + 2q)", "eps (1 + cond)"};
+    const double limit =
+        (real == Real::f32 || function.result == "U" ? function.bound : std::max(function.bound, 20.0)) *
+        slack(options.math);
+    // Where rounding has erased the half vector, the differences that measure the condition of an inverse lie beyond the
+    // clamps of u and show none of it: its few worst rows say nothing.
+    const bool inverse = function.result == "U";
+    return {make_finding(inverse ? "pointwise, p99" : "pointwise, maximum",
+                         inverse ? errors.percentile(99) : errors.max(), limit,
+                         units[static_cast<int>(judge.unit)], errors, function, table),
+            make_finding(density ? "finite and not negative" : "finite", bad.max(), 0, "rows", bad, function,
+                         table)};
+}
+
+}  // namespace vndf::conformance

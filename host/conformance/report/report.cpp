@@ -1,0 +1,193 @@
+#include "conformance/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace vndf::conformance {
+
+bool Finding::passed() const {
+    return biased ? std::abs(figure - limit) <= 0.1 * limit : severity() <= 1;
+}
+
+double Finding::severity() const {
+    constexpr double beyond = std::numeric_limits<double>::infinity();
+    if (std::isnan(figure)) return beyond;
+    if (is_p) return std::log(std::max(figure, 1e-300)) / std::log(limit);
+    if (figure == 0) return 0;
+    return limit > 0 ? figure / limit : beyond;
+}
+
+Verdict FunctionReport::verdict() const {
+    const auto any = [&](auto predicate) { return std::any_of(findings.begin(), findings.end(), predicate); };
+    // No finding is no evidence.
+    if (findings.empty() || any([](const Finding& f) { return !f.passed(); })) return Verdict::fail;
+    return any([](const Finding& f) { return f.biased; }) ? Verdict::known_bias : Verdict::pass;
+}
+
+const Finding* FunctionReport::worst() const {
+    const auto key = [](const Finding& f) { return std::pair(!f.passed(), f.biased ? 1e9 : f.severity()); };
+    const auto found = std::max_element(findings.begin(), findings.end(),
+                                        [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
+    return found == findings.end() ? nullptr : &*found;
+}
+
+bool Report::passed() const {
+    return !functions.empty() && std::all_of(functions.begin(), functions.end(), [](const auto& function) {
+        return function.verdict() != Verdict::fail;
+    });
+}
+
+std::string to_string(Verdict verdict) {
+    return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "FAIL" : "known bias";
+}
+
+namespace {
+
+std::string figure_text(const Finding& f) {
+    const char* const relation = f.biased ? "documented:" : f.is_p ? "at least" : "at most";
+    return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, relation, f.limit,
+                       f.unit.empty() ? "" : " ", f.unit);
+}
+
+}  // namespace
+
+std::string format_table(const Report& report) {
+    std::size_t width = 8, figure_width = 12;
+    for (const FunctionReport& f : report.functions) {
+        width = std::max(width, f.function->name.size());
+        if (const Finding* worst = f.worst())
+            figure_width = std::max(figure_width, figure_text(*worst).size());
+    }
+    std::string text = fmt::format("{:<{}}  {:<10}  {:<{}}  {}\n", "function", width, "verdict",
+                                   "worst figure", figure_width, "at");
+    for (const FunctionReport& f : report.functions) {
+        const Finding* worst = f.worst();
+        text += fmt::format("{:<{}}  {:<10}  {:<{}}  {}\n", f.function->name, width, to_string(f.verdict()),
+                            worst ? figure_text(*worst) : "nothing checked", figure_width,
+                            worst ? worst->worst : "");
+    }
+    for (const FunctionReport& f : report.functions)
+        for (const Finding& finding : f.findings)
+            if (!finding.passed() || finding.biased)
+                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", finding.passed() ? "known bias" : "FAILED",
+                                    f.function->name, figure_text(finding),
+                                    finding.detail.empty() ? "" : "; ", finding.detail, finding.worst);
+    const auto count = [&](Verdict verdict) {
+        return std::count_if(report.functions.begin(), report.functions.end(),
+                             [&](const FunctionReport& f) { return f.verdict() == verdict; });
+    };
+    text += fmt::format("\n{} on {}\n  {}\n", report.math + " " + report.real, report.device, report.options);
+    text += fmt::format(
+        "{} functions: {} pass, {} known bias, {} fail; {:.0f} s, seed {}\n"
+        "{} statistical tests, {} samples a lobe; false alarms in the whole run below {:g} (Sidak: {:.3g} a "
+        "test)\n",
+        report.functions.size(), count(Verdict::pass), count(Verdict::known_bias), count(Verdict::fail),
+        report.seconds, report.seed, report.tests, report.samples, report.family_rate, report.level);
+    if (report.bit_rows > 0) text += format_differences(report.bits, report.bit_rows);
+    return text;
+}
+
+std::string format_json(const Report& report) {
+    nlohmann::ordered_json functions = nlohmann::ordered_json::array();
+    for (const FunctionReport& f : report.functions) {
+        nlohmann::ordered_json findings = nlohmann::ordered_json::array();
+        for (const Finding& finding : f.findings)
+            findings.push_back({{"check", finding.check},
+                                {"passed", finding.passed()},
+                                {"known_bias", finding.biased},
+                                {"figure", finding.figure},
+                                {"limit", finding.limit},
+                                {"limit_is", finding.is_p ? "minimum" : "maximum"},
+                                {"unit", finding.unit},
+                                {"count", finding.count},
+                                {"detail", finding.detail},
+                                {"worst_input", finding.worst}});
+        functions.push_back({{"name", f.function->name},
+                             {"kind", std::string(to_string(f.function->kind))},
+                             {"verdict", to_string(f.verdict())},
+                             {"findings", std::move(findings)}});
+    }
+    nlohmann::ordered_json bits = nlohmann::ordered_json::array();
+    for (const BitDifference& d : report.bits)
+        if (d.differing > 0 || d.exempt > 0)
+            bits.push_back({{"name", d.function->name},
+                            {"differing", d.differing},
+                            {"exempt", d.exempt},
+                            {"ulps", d.ulps},
+                            {"worst_input", d.worst}});
+    const nlohmann::ordered_json document{{"passed", report.passed()},
+                                          {"device", report.device},
+                                          {"build_options", report.options},
+                                          {"math", report.math},
+                                          {"real", report.real},
+                                          {"seed", report.seed},
+                                          {"quick", report.quick},
+                                          {"samples_per_lobe", report.samples},
+                                          {"statistical_tests", report.tests},
+                                          {"family_false_alarm_rate", report.family_rate},
+                                          {"level_per_test", report.level},
+                                          {"seconds", report.seconds},
+                                          {"bits_compared_with_host_build", report.bit_rows},
+                                          {"bits_different_or_exempt", std::move(bits)},
+                                          {"functions", std::move(functions)}};
+    return document.dump(2) + "\n";
+}
+
+namespace {
+
+// Text as XML character data or attribute value; control characters, which XML 1.0 forbids, become spaces.
+std::string xml(const std::string& text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+        }
+    return out;
+}
+
+}  // namespace
+
+std::string format_junit(const Report& report) {
+    std::size_t tests = 0, failures = 0;
+    std::string cases;
+    for (const FunctionReport& f : report.functions)
+        for (const Finding& finding : f.findings) {
+            ++tests;
+            cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", xml(f.function->name),
+                                 xml(finding.check));
+            const std::string text = xml(figure_text(finding) + "\n" + finding.detail + "\n" + finding.worst);
+            if (finding.passed()) {
+                cases +=
+                    fmt::format("<system-out>{}{}</system-out>", finding.biased ? "known bias: " : "", text);
+            } else {
+                ++failures;
+                cases += fmt::format("<failure message=\"{}\">{}</failure>", xml(figure_text(finding)), text);
+            }
+            cases += "</testcase>\n";
+        }
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<testsuites name=\"clvndf check\" tests=\"{0}\" failures=\"{1}\" time=\"{2:.3f}\">\n"
+        "  <testsuite name=\"{3}\" tests=\"{0}\" failures=\"{1}\" time=\"{2:.3f}\">\n{4}  </testsuite>\n"
+        "</testsuites>\n",
+        tests, failures, report.seconds, xml(report.math + " " + report.real + " on " + report.device),
+        cases);
+}
+
+}  // namespace vndf::conformance

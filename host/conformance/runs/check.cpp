@@ -1,0 +1,241 @@
+#include "conformance/runs/check.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <future>
+#include <map>
+#include <set>
+
+#include "conformance/judge/digest.h"
+#include "conformance/inputs/grids.h"
+#include "conformance/judge/known_bias.h"
+#include "conformance/judge/lobes.h"
+#include "parallel.h"
+#include "conformance/judge/samplers.h"
+#include "conformance/judge/values.h"
+
+namespace vndf::conformance {
+namespace {
+
+constexpr double family_rate = 1e-6;
+
+bool matches(std::string_view glob, std::string_view name) {
+    if (glob.empty()) return name.empty();
+    if (glob.front() == '*')
+        return matches(glob.substr(1), name) || (!name.empty() && matches(glob, name.substr(1)));
+    return !name.empty() && (glob.front() == '?' || glob.front() == name.front()) &&
+           matches(glob.substr(1), name.substr(1));
+}
+
+bool is_sampled(const Function& function) {
+    return function.kind == Kind::sampler && !function.with_pdf;
+}
+
+// The directions of a lobe: what the device draws while the host judges the lobe before.
+template <class T>
+struct Batch {
+    std::vector<double> row;
+    std::vector<T> x, y, z;
+};
+
+template <class T>
+class Drawer {
+  public:
+    Drawer(runtime::DeviceEvaluator& evaluator, const Function& sampler, std::uint64_t seed,
+           std::size_t samples)
+        : evaluator_(evaluator),
+          sampler_(sampler),
+          seed_(seed),
+          inputs_(sampler.inputs.size(), std::vector<T>(samples)) {}
+
+    Batch<T> draw(const Point& lobe, std::uint64_t stream) {
+        const std::size_t n = inputs_.front().size();
+        const Table table =
+            tabulate(sampler_, {lobe}, sizeof(T) == sizeof(float) ? Rounding::to_float : Rounding::none);
+        Batch<T> batch{table.row(0), std::vector<T>(n), std::vector<T>(n), std::vector<T>(n)};
+        std::vector<const void*> in;
+        for (std::size_t i = 0; i < inputs_.size(); ++i) {
+            if (const std::string& name = sampler_.inputs[i]; name != "u1" && name != "u2")
+                std::fill(inputs_[i].begin(), inputs_[i].end(), static_cast<T>(batch.row[i]));
+            in.push_back(inputs_[i].data());
+        }
+        evaluator_.uniforms(seed_, stream, n, inputs_.at(column(sampler_, "u1")).data(),
+                            inputs_.at(column(sampler_, "u2")).data());
+        evaluator_.run(sampler_, n, in, {batch.x.data(), batch.y.data(), batch.z.data()});
+        return batch;
+    }
+
+  private:
+    runtime::DeviceEvaluator& evaluator_;
+    const Function& sampler_;
+    std::uint64_t seed_;
+    std::vector<std::vector<T>> inputs_;
+};
+
+// Keeps, for each kind of test, the worst lobe.
+class WorstLobes {
+  public:
+    WorstLobes(const Function& sampler, double level) : sampler_(sampler), level_(level) {}
+
+    void add(const std::vector<LobeTest>& tests, const std::vector<double>& row) {
+        for (const LobeTest& test : tests) {
+            Finding finding;
+            finding.check = test.name, finding.figure = test.figure, finding.detail = test.detail;
+            finding.is_p = test.is_p;
+            finding.limit = test.is_p ? level_ : 1;
+            finding.unit = test.is_p ? "probability" : "tolerances";
+            finding.worst = hex_row(sampler_, row);
+            const auto [place, added] = findings_.try_emplace(test.name, finding);
+            const std::size_t count = place->second.count + 1;
+            if (!added && finding.severity() > place->second.severity()) place->second = finding;
+            place->second.count = added ? 1 : count;
+        }
+    }
+    void append_to(std::vector<Finding>& findings) const {
+        for (const auto& [_, finding] : findings_) findings.push_back(finding);
+    }
+
+  private:
+    const Function& sampler_;
+    double level_;
+    std::map<std::string, Finding> findings_;
+};
+
+class Run {
+  public:
+    Run(runtime::DeviceEvaluator& evaluator, runtime::Math math, const std::vector<const Function*>& selected,
+        const CheckOptions& options)
+        : evaluator_(evaluator), math_(math), options_(options) {
+        report_.device = evaluator.device().label();
+        report_.options = evaluator.build_options();
+        report_.math = to_string(math);
+        report_.real = to_string(evaluator.input_real());
+        report_.seed = options.seed;
+        report_.quick = options.quick;
+        report_.samples = std::size_t{1} << (options.quick ? 18 : 20);
+        report_.family_rate = family_rate;
+        for (const Function* function : selected) {
+            if (is_sampled(*function))
+                report_.tests += lobes(*function, options.quick).size() * tests_per_lobe(*function);
+            work_total_ += work(*function);
+        }
+        report_.level = sidak(family_rate, report_.tests);
+        pointwise_.math = math;
+        pointwise_.seed = options.seed;
+        pointwise_.random_points =
+            options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
+        pointwise_.hard_stride = options.quick ? 7 : 1;
+        pointwise_.quick = options.quick;
+    }
+
+    Report run(const std::vector<const Function*>& selected) {
+        const auto start = std::chrono::steady_clock::now();
+        for (const Function* function : selected) {
+            options_.progress(function->name, work_done_ / work_total_);
+            report_.functions.push_back({function, findings(*function)});
+            work_done_ += work(*function);
+        }
+        if (math_ == runtime::Math::strict) compare_bits(selected);
+        options_.progress("", 1);
+        report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return std::move(report_);
+    }
+
+  private:
+    // In lobes.
+    double work(const Function& function) const {
+        return 2 + (is_sampled(function) ? static_cast<double>(lobes(function, options_.quick).size()) : 0);
+    }
+
+    void compare_bits(const std::vector<const Function*>& selected) {
+        BitsOptions bits;
+        bits.rows = report_.bit_rows = options_.quick ? quick_digest_rows : std::size_t{1} << 16;
+        bits.flushes = !evaluator_.device().denormals;
+        report_.bits = compare_with_host(evaluator_, selected, bits);
+    }
+
+    std::vector<Finding> findings(const Function& function) {
+        if (function.kind == Kind::sampler && function.with_pdf)
+            return check_with_pdf(evaluator_, function, pointwise_);
+        if (function.kind == Kind::sampler) {
+            std::vector<Finding> all = check_sampler(evaluator_, function, pointwise_);
+            for (Finding& finding : measure_bias(evaluator_, function)) all.push_back(std::move(finding));
+            evaluator_.input_real() == Real::f32 ? statistics<float>(function, all)
+                                                 : statistics<double>(function, all);
+            return all;
+        }
+        std::vector<Finding> all = check_values(evaluator_, function, pointwise_);
+        if (function.kind == Kind::density)
+            for (Finding& finding : check_normalisation(evaluator_, function, pointwise_))
+                all.push_back(std::move(finding));
+        return all;
+    }
+
+    template <class T>
+    void statistics(const Function& sampler, std::vector<Finding>& all) {
+        const KnownBias bias = known_bias(sampler);
+        Drawer<T> drawer(evaluator_, sampler, options_.seed, report_.samples);
+        WorstLobes worst(sampler, report_.level);
+        // A thread for each lobe drawn, as many at once as the host has.
+        struct Judging {
+            std::vector<double> row;
+            std::future<std::vector<LobeTest>> tests;
+        };
+        std::deque<Judging> judging;
+        const auto finish_first = [&] {
+            worst.add(judging.front().tests.get(), judging.front().row);
+            judging.pop_front();
+        };
+        // Numbered by function and lobe, so that --only repeats a run's samples.
+        std::uint64_t stream = static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
+        double done = 0;
+        for (const Point& lobe : lobes(sampler, options_.quick)) {
+            options_.progress(sampler.name, (work_done_ + ++done) / work_total_);
+            Batch<T> batch = drawer.draw(lobe, stream++);
+            std::vector<double> row = batch.row;
+            if (judging.size() >= thread_count()) finish_first();
+            judging.push_back({std::move(row), std::async(std::launch::async, [&, batch = std::move(batch)] {
+                                   return test_lobe(sampler, batch.row, batch.x.size(), batch.x.data(),
+                                                    batch.y.data(), batch.z.data(), report_.level, bias);
+                               })});
+        }
+        while (!judging.empty()) finish_first();
+        worst.append_to(all);
+    }
+
+    runtime::DeviceEvaluator& evaluator_;
+    runtime::Math math_;
+    const CheckOptions& options_;
+    PointwiseOptions pointwise_;
+    Report report_;
+    double work_total_ = 0, work_done_ = 0;
+};
+
+}  // namespace
+
+std::vector<const Function*> select(const std::string& pattern) {
+    std::vector<const Function*> selected;
+    for (const Function& function : functions())
+        if (function.name.find(pattern) != std::string::npos || matches(pattern, function.name))
+            selected.push_back(&function);
+    return selected;
+}
+
+std::vector<std::string> needed(const std::vector<const Function*>& selected) {
+    std::set<std::string> names;
+    for (const Function* function : selected) {
+        names.insert(function->name);
+        if (!function->with_pdf) continue;
+        names.insert(function->name.substr(0, function->name.rfind("_with_pdf")));
+        names.insert(function->density);
+    }
+    return {names.begin(), names.end()};
+}
+
+Report check(runtime::DeviceEvaluator& evaluator, runtime::Math math,
+             const std::vector<const Function*>& selected, const CheckOptions& options) {
+    return Run(evaluator, math, selected, options).run(selected);
+}
+
+}  // namespace vndf::conformance
