@@ -11,9 +11,8 @@
 #include "conformance/judge/known_bias.h"
 #include "conformance/judge/samplers.h"
 #include "cpp_build.h"
-#include "error.h"
 #include "inputs.h"
-#include "runtime/opencl_error.h"
+#include "sources.h"
 
 namespace vndf::bench {
 namespace {
@@ -21,7 +20,6 @@ namespace {
 using runtime::DeviceEvaluator, runtime::Math, runtime::Real;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t local_size = 64;
 constexpr std::size_t column_bytes = std::size_t{1} << 24;  // far beyond every cache, with 10 columns
 constexpr std::size_t distinct_rows = std::size_t{1} << 16;
 constexpr std::ptrdiff_t judged_rows = 1 << 14;  // the reference takes microseconds for each
@@ -39,16 +37,12 @@ bool in_world_space(const Function& function) {
     return conformance::column(function, "n_x") >= 0;
 }
 
-// Adds what was being done to an OpenCL failure.
-template <class Body>
-auto translated(const runtime::Device& device, const std::string& what, Body body) {
-    try {
-        return body();
-    } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("cannot measure {} on \"{}\" ({}): {} failed with {}", what,
-                                      device.name, device.platform_version, error.what(),
-                                      runtime::opencl_error_name(error.err())));
-    }
+// A program without any registered function.
+runtime::ProgramOptions own_program(const std::string& source) {
+    runtime::ProgramOptions options;
+    options.root = "kernels/vndf/config.h";
+    options.more_source = source;
+    return options;
 }
 
 std::vector<char> to_bytes(const std::vector<double>& values, Real real) {
@@ -73,7 +67,7 @@ bool is_published(const Function& function) {
 }
 
 Session::Session(const runtime::Device& device)
-    : device_(device), context_(device.handle), queue_(context_, device.handle, CL_QUEUE_PROFILING_ENABLE) {}
+    : arithmetic_(device, Math::strict, Real::f32, own_program(arithmetic_source())) {}
 
 const conformance::Table& Session::table(const Function& function, Real real) {
     auto [found, missing] = tables_.try_emplace(function.name + std::string(to_string(real)));
@@ -92,26 +86,26 @@ cl::Buffer& Session::input(const Function& function, std::size_t index, Real rea
         fmt::format("{} {} {}", function.inputs[index], in_world_space(function), to_string(real));
     const auto found = inputs_.find(key);
     if (found != inputs_.end()) return found->second;
-    cl::Buffer buffer(context_, CL_MEM_READ_ONLY, column_bytes);
+    const cl::CommandQueue& queue = arithmetic_.queue();
+    const cl::Buffer buffer = arithmetic_.buffer(column_bytes);
     const std::vector<char> bytes = to_bytes(table(function, real).columns[index], real);
-    queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
+    queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
     for (std::size_t filled = bytes.size(); filled < column_bytes; filled *= 2)
-        queue_.enqueueCopyBuffer(buffer, buffer, 0, filled, std::min(filled, column_bytes - filled));
-    queue_.finish();
+        queue.enqueueCopyBuffer(buffer, buffer, 0, filled, std::min(filled, column_bytes - filled));
+    queue.finish();
     return inputs_[key] = buffer;
 }
 
 cl::Buffer& Session::output(std::size_t index) {
-    while (outputs_.size() <= index) outputs_.emplace_back(context_, CL_MEM_READ_WRITE, column_bytes);
+    while (outputs_.size() <= index) outputs_.push_back(arithmetic_.buffer(column_bytes));
     return outputs_[index];
 }
 
 Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
     cl::Event event;
     const auto start = Clock::now();
-    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(work_items), cl::NDRange(local_size),
-                                nullptr, &event);
-    queue_.finish();
+    arithmetic_.launch(kernel, work_items, &event);
+    arithmetic_.queue().finish();
     const double wall_s = seconds_since(start);
     cl_ulong begin = 0, end = 0;
     event.getProfilingInfo(CL_PROFILING_COMMAND_START, &begin);
@@ -120,7 +114,7 @@ Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
 }
 
 cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator) {
-    cl::Kernel kernel(evaluator.program(), ("vndf_batch_" + function.name).c_str());
+    cl::Kernel kernel = evaluator.program().kernel("vndf_batch_" + function.name);
     cl_uint argument = 0;
     for (std::size_t i = 0; i < function.inputs.size(); ++i)
         kernel.setArg(argument++, input(function, i, evaluator.input_real()));
@@ -135,7 +129,8 @@ double Session::build(const Function& function, Math math, Real real,
                       const runtime::ProgramOptions& options) {
     const std::size_t items = column_bytes / size_of(real) / 64;
     const auto start = Clock::now();
-    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, math, real, options));
+    evaluators_.push_back(
+        std::make_unique<DeviceEvaluator>(runtime::Program(arithmetic_, math, real, options)));
     const cl::Kernel kernel = stream_kernel(function, *evaluators_.back());
     launch(kernel, items);
     return seconds_since(start) - launch(kernel, items).wall_s;
@@ -167,7 +162,7 @@ Entry Session::long_entry(const cl::Kernel& kernel, std::size_t items, std::size
 Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluator) {
     const Real real = evaluator.input_real();
     const conformance::Point point = lobe(in_world_space(function));
-    cl::Kernel kernel(evaluator.program(), "vndf_compute");
+    cl::Kernel kernel = evaluator.program().kernel("vndf_compute");
     cl_uint argument = 0;
     for (std::size_t i = 0; i < function.inputs.size(); ++i, ++argument) {
         const double value = point.scalar(function.inputs[i]);
@@ -180,18 +175,7 @@ Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluato
     }
     for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
 
-    return long_entry(kernel, compute_groups * local_size, most_items);
-}
-
-// A kernel that needs nothing of the registry.
-cl::Kernel Session::own_kernel(const char* name, const std::string& source, Real real) {
-    runtime::ProgramOptions options;
-    options.root = "kernels/vndf/config.h";
-    options.functions = {"vndf_reflect"};
-    options.more_source = source;
-    options.context = context_;
-    evaluators_.push_back(std::make_unique<DeviceEvaluator>(device_, Math::strict, real, options));
-    return cl::Kernel(evaluators_.back()->program(), name);
+    return long_entry(kernel, compute_groups * runtime::group_size, most_items);
 }
 
 const Entry* Session::find_entry(const std::string& name) const {
@@ -210,13 +194,15 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
     Entry fastest;
     double best_s = INFINITY;
     for (const Copy copy : copies) {
-        cl::Kernel kernel = own_kernel("vndf_copy", copy_source(copy, reads, writes, real), real);
+        cl::Kernel kernel =
+            runtime::Program(arithmetic_, Math::strict, real, own_program(copy_source(copy, reads, writes, real)))
+                .kernel("vndf_copy");
         cl_uint argument = 0;
         for (std::size_t i = 0; i < reads; ++i) {
             const std::string key = fmt::format("copy {}", i);
             if (!inputs_.contains(key)) {
-                inputs_[key] = cl::Buffer(context_, CL_MEM_READ_WRITE, column_bytes);
-                queue_.enqueueFillBuffer(inputs_[key], 0.5f, 0, column_bytes);
+                inputs_[key] = arithmetic_.buffer(column_bytes);
+                arithmetic_.queue().enqueueFillBuffer(inputs_[key], 0.5f, 0, column_bytes);
             }
             kernel.setArg(argument++, inputs_[key]);
         }
@@ -241,10 +227,10 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
 std::string Session::arithmetic_entry() {
     const std::string name = "fma/compute";
     if (find_entry(name)) return name;
-    cl::Kernel kernel = own_kernel("vndf_arithmetic", arithmetic_source(), Real::f32);
+    cl::Kernel kernel = arithmetic_.kernel("vndf_arithmetic");
     kernel.setArg(0, output(0));
     kernel.setArg(1, 0.5f);
-    Entry entry = long_entry(kernel, local_size * device_.compute_units, column_bytes / sizeof(float));
+    Entry entry = long_entry(kernel, runtime::group_size * arithmetic_.device().compute_units, column_bytes / sizeof(float));
     entry.samples *= arithmetic_operations;
     entry.name = name;
     entry.label = "a sample is one operation; an fma is two";
@@ -287,20 +273,20 @@ double Session::useful_part(const Function& function, runtime::Evaluator& evalua
 }
 
 void Session::add_program(const Function& function, Math math, Real real, const Form& form) {
-    translated(device_, function.name, [&] {
+    arithmetic_.guarded("measure " + function.name, [&] {
         const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), real);
         runtime::ProgramOptions options;
         options.functions = {function.name};
         options.root = form.root;
         options.more_source = compute_source(function, form.callee);
-        options.context = context_;
+        options.more_files = sources();
         options.substitutions = form.substitutions;
         options.mutant = form.substitutions.empty() ? 0 : 1;
         for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
         const double cold_s = build(function, math, real, options);
         const double warm_s = build(function, math, real, options);  // from the driver's cache
         DeviceEvaluator& evaluator = *evaluators_.back();
-        if (build_options_.empty()) build_options_ = evaluator.build_options();
+        if (build_options_.empty()) build_options_ = evaluator.program().build_options();
         Entry stream = stream_entry(function, evaluator);
         Entry compute = compute_entry(function, evaluator);
         if (form.same_map) add_accuracy(stream, function, evaluator);

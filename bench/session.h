@@ -65,7 +65,6 @@ class Session {
     std::string copy_entry(std::size_t reads, std::size_t writes, runtime::Real real);
     std::string arithmetic_entry();
     Entry long_entry(const cl::Kernel& kernel, std::size_t items, std::size_t most);
-    cl::Kernel own_kernel(const char* name, const std::string& source, runtime::Real real);
     const Entry* find_entry(const std::string& name) const;
     void add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator);
     double useful_part(const Function& function, runtime::Evaluator& evaluator);
@@ -75,9 +74,7 @@ class Session {
     cl::Buffer& output(std::size_t index);
     Timing launch(const cl::Kernel& kernel, std::size_t items);
 
-    runtime::Device device_;
-    cl::Context context_;
-    cl::CommandQueue queue_;
+    runtime::Program arithmetic_;  // measures the device's rate; the others are built in its context
     std::map<std::string, cl::Buffer> inputs_;
     std::map<std::string, conformance::Table> tables_;
     std::vector<cl::Buffer> outputs_;

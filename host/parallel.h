@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace vndf::conformance {
+namespace vndf {
 
 inline unsigned thread_count() {
     return std::max(1u, std::thread::hardware_concurrency());
@@ -36,4 +36,4 @@ void parallel_for(std::size_t n, std::size_t grain, Body body) {
     if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace vndf::conformance
+}  // namespace vndf

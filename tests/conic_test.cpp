@@ -141,19 +141,19 @@ TEST_CASE("on the device, too, a lobe for many samples gives the bits of the sin
     }
     device.uniforms(1, 0, samples, u1.data(), u2.data());
 
-    const cl::CommandQueue queue(device.context(), device.device().handle);
+    const runtime::Program& program = device.program();
     const auto copy_of = [&](std::vector<float>& values) {
-        return cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+        return cl::Buffer(program.context(), CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
                           values.size() * sizeof(float), values.data());
     };
     const cl::Buffer lobes = copy_of(rows), first = copy_of(u1), second = copy_of(u2), result = copy_of(out);
-    cl::Kernel kernel(device.program(), "many_samples");
+    cl::Kernel kernel = program.kernel("many_samples");
     kernel.setArg(0, lobes);
     kernel.setArg(1, first);
     kernel.setArg(2, second);
     kernel.setArg(3, result);
-    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(items), cl::NDRange(64));
-    queue.enqueueReadBuffer(result, CL_TRUE, 0, out.size() * sizeof(float), out.data());
+    program.launch(kernel, items);
+    program.queue().enqueueReadBuffer(result, CL_TRUE, 0, out.size() * sizeof(float), out.data());
 
     std::vector<float> x(samples), y(samples), z(samples), pdf(samples), separate(samples);
     device.run(sampler, samples,

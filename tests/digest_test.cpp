@@ -125,19 +125,17 @@ TEST_CASE("items beyond the last whole group have the host build's bits", "[tail
 
 // Only for oclgrind.sh: what it must see.
 TEST_CASE("a kernel with an invalid access and a data race", "[.planted]") {
-    runtime::ProgramOptions program;
-    program.functions = {"vndf_reflect"};
-    program.more_source =
+    runtime::ProgramOptions options;
+    options.root = "kernels/vndf/config.h";
+    options.more_source =
         "__kernel void planted(__global float *a) { a[get_global_id(0) + 1] = a[0]; a[1] = get_global_id(0); "
         "}";
-    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
-                                    runtime::Real::f32, program);
-    cl::Kernel kernel(device.program(), "planted");
-    const cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, std::size_t{4 * 64});
-    kernel.setArg(0, buffer);
-    const cl::CommandQueue queue(device.context(), device.device().handle);
-    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(64), cl::NDRange(64));
-    queue.finish();
+    const runtime::Program program(runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32,
+                                   options);
+    cl::Kernel kernel = program.kernel("planted");
+    kernel.setArg(0, program.buffer(std::size_t{4 * 64}));
+    program.launch(kernel, 64);
+    program.queue().finish();
 }
 
 TEST_CASE("a device that flushes subnormal numbers is excused for them alone") {

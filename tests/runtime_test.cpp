@@ -329,7 +329,7 @@ TEST_CASE("a seeded mistake changes results where it is switched on, and only th
     CHECK(differences(run<float>(off, f, in), expected) == 0);
     for (float& x : expected[0]) x = -x;
     CHECK(differences(run<float>(on, f, in), expected) == 0);
-    CHECK_THAT(on.build_options(), ContainsSubstring("-DVNDF_MUTANT=3"));
+    CHECK_THAT(on.program().build_options(), ContainsSubstring("-DVNDF_MUTANT=3"));
 }
 
 // --------------------------------------------------------------------------------------------- uniforms

@@ -20,7 +20,7 @@
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
 #include "error.h"
-#include "runtime/sources.h"
+#include "bench/sources.h"
 
 namespace vndf::cli {
 namespace {
@@ -65,7 +65,7 @@ std::string read_file(const std::string& path) {
 
 // FOLDER/index.html out of FOLDER/bench.json, by the script in this binary.
 void make_report(const std::string& folder) {
-    const auto& files = runtime::embedded_sources();
+    const auto& files = bench::sources();
     const auto script = std::find_if(
         files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report/report.py"; });
     const std::filesystem::path work(folder);

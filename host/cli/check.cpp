@@ -96,14 +96,14 @@ void run_exhaustive(const Check& options, Common& common) {
     const runtime::Device device = options.target.choose(common);
     const Progress progress(common.quiet);
     progress("building the program", 0);
-    runtime::DeviceEvaluator evaluator(device, options.target.math(), runtime::Real::f32,
-                                       conformance::exhaustive_program(samplers));
+    const runtime::Program program(device, options.target.math(), runtime::Real::f32,
+                                   conformance::exhaustive_program(samplers));
     walk.proceed = [&](const std::string& what, double done) {
         progress(what, done);
         return !interrupted;
     };
     const auto before = std::signal(SIGINT, [](int) { interrupted = true; });
-    const auto report = conformance::exhaust(evaluator, options.target.math(), samplers, walk);
+    const auto report = conformance::exhaust(program, samplers, walk);
     std::signal(SIGINT, before);
     progress.clear();
     fmt::print("{}", conformance::format_table(report));

@@ -107,8 +107,8 @@ class Run {
     Run(runtime::DeviceEvaluator& evaluator, runtime::Math math, const std::vector<const Function*>& selected,
         const CheckOptions& options)
         : evaluator_(evaluator), math_(math), options_(options) {
-        report_.device = evaluator.device().label();
-        report_.options = evaluator.build_options();
+        report_.device = evaluator.program().device().label();
+        report_.options = evaluator.program().build_options();
         report_.math = to_string(math);
         report_.real = to_string(evaluator.input_real());
         report_.seed = options.seed;
@@ -151,7 +151,7 @@ class Run {
     void compare_bits(const std::vector<const Function*>& selected) {
         BitsOptions bits;
         bits.rows = report_.bit_rows = options_.quick ? quick_digest_rows : std::size_t{1} << 16;
-        bits.flushes = !evaluator_.device().denormals;
+        bits.flushes = !evaluator_.program().device().denormals;
         report_.bits = compare_with_host(evaluator_, selected, bits);
     }
 

@@ -9,15 +9,12 @@
 #include <fmt/format.h>
 
 #include "conformance/judge/errors.h"
-#include "error.h"
-#include "runtime/opencl_error.h"
 
 namespace vndf::conformance {
 namespace {
 
 constexpr std::uint32_t all_u = 1u << 24;
 constexpr std::uint32_t strip = 128;  // inputs of a work-item
-constexpr std::size_t local_size = 64;
 constexpr std::uint32_t no_offender = ~0u;
 constexpr std::uint32_t all_invariants = (1u << invariant_count) - 1;
 
@@ -85,14 +82,11 @@ using Tally = std::array<cl_uint, invariant_count + 1>;
 // One sampler on the device.
 class Walker {
   public:
-    Walker(const runtime::DeviceEvaluator& evaluator, const cl::CommandQueue& queue, const cl::Buffer& tally,
-           const Function& sampler)
+    Walker(const runtime::Program& program, const cl::Buffer& tally, const Function& sampler)
         : sampler_(sampler),
-          kernel_(evaluator.program(), ("vndf_exhaustive_" + sampler.name).c_str()),
-          queue_(queue),
-          tally_(tally),
-          local_(std::min(local_size,
-                          kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(evaluator.device().handle))) {
+          program_(program),
+          kernel_(program.kernel("vndf_exhaustive_" + sampler.name)),
+          tally_(tally) {
         for (const Point& point : exhaustive_lobes(sampler)) lobes_.push_back(lobe_of(sampler, point));
         exhausted_.sampler = &sampler;
         for (const char* name :
@@ -126,7 +120,7 @@ class Walker {
     Tally launch(const Lobe& lobe, const Walk& walk, std::uint32_t watch) {
         Tally tally{};
         tally.back() = no_offender;
-        queue_.enqueueWriteBuffer(tally_, CL_FALSE, 0, sizeof tally, tally.data());
+        program_.queue().enqueueWriteBuffer(tally_, CL_FALSE, 0, sizeof tally, tally.data());
         cl_uint argument = 0;
         for (std::size_t i = 0; i < lobe.row.size(); ++i) {
             const std::string& name = sampler_.inputs[i];
@@ -138,8 +132,8 @@ class Walker {
                                           std::uint32_t{lobe.defined}, std::uint32_t{lobe.documented}, watch})
             kernel_.setArg(argument++, cl_uint{value});
         kernel_.setArg(argument, tally_);
-        queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(all_u / strip), cl::NDRange(local_));
-        queue_.enqueueReadBuffer(tally_, CL_TRUE, 0, sizeof tally, tally.data());
+        program_.launch(kernel_, all_u / strip);
+        program_.queue().enqueueReadBuffer(tally_, CL_TRUE, 0, sizeof tally, tally.data());
         return tally;
     }
 
@@ -151,10 +145,9 @@ class Walker {
     }
 
     const Function& sampler_;
+    const runtime::Program& program_;
     cl::Kernel kernel_;
-    cl::CommandQueue queue_;
     cl::Buffer tally_;
-    std::size_t local_;
     std::vector<Lobe> lobes_;
     Exhausted exhausted_;
 };
@@ -264,17 +257,16 @@ runtime::ProgramOptions exhaustive_program(const std::vector<const Function*>& s
     return options;
 }
 
-ExhaustiveReport exhaust(runtime::DeviceEvaluator& evaluator, runtime::Math math,
-                         const std::vector<const Function*>& samplers, const ExhaustiveOptions& options) {
+ExhaustiveReport exhaust(const runtime::Program& program, const std::vector<const Function*>& samplers,
+                         const ExhaustiveOptions& options) {
     ExhaustiveReport report;
-    report.device = evaluator.device().label();
-    report.options = evaluator.build_options();
-    report.math = to_string(math);
-    try {
-        const cl::CommandQueue queue(evaluator.context(), evaluator.device().handle);
-        const cl::Buffer tally(evaluator.context(), CL_MEM_READ_WRITE, sizeof(Tally));
+    report.device = program.device().label();
+    report.options = program.build_options();
+    report.math = to_string(program.math());
+    program.guarded("walk", [&] {
+        const cl::Buffer tally = program.buffer(sizeof(Tally));
         std::vector<Walker> walkers;
-        for (const Function* sampler : samplers) walkers.emplace_back(evaluator, queue, tally, *sampler);
+        for (const Function* sampler : samplers) walkers.emplace_back(program, tally, *sampler);
         Run run(walkers, options);
         run.run();
         report.seconds = run.seconds();
@@ -283,11 +275,7 @@ ExhaustiveReport exhaust(runtime::DeviceEvaluator& evaluator, runtime::Math math
             report.whole += std::uint64_t{all_u} * passes * walker.lobes();
             report.samplers.push_back(walker.exhausted());
         }
-    } catch (const cl::Error& error) {
-        throw DeviceError(fmt::format("cannot walk on \"{}\": {} failed with {}\n  options: {}",
-                                      evaluator.device().name, error.what(),
-                                      runtime::opencl_error_name(error.err()), evaluator.build_options()));
-    }
+    });
     return report;
 }
 

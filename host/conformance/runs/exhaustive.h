@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "conformance/inputs/points.h"
-#include "runtime/device_evaluator.h"
+#include "runtime/program.h"
 
 namespace vndf::conformance {
 
@@ -65,9 +65,9 @@ runtime::ProgramOptions exhaustive_program(const std::vector<const Function*>& s
 
 // Walks the samplers, in turns: in each pass over a lobe one u takes all multiples of 2^-24 in [0, 1), while the
 // other is fixed at an end or a quarter of its range, or takes all of them too, in the order of a lattice. The
-// evaluator, of floats, must hold exhaustive_program(samplers).
-ExhaustiveReport exhaust(runtime::DeviceEvaluator& evaluator, runtime::Math math,
-                         const std::vector<const Function*>& samplers, const ExhaustiveOptions& options);
+// program, of floats, must be made of exhaustive_program(samplers).
+ExhaustiveReport exhaust(const runtime::Program& program, const std::vector<const Function*>& samplers,
+                         const ExhaustiveOptions& options);
 
 // One row a sampler: inputs, inputs a second, verdict; then the offenders and a summary.
 std::string format_table(const ExhaustiveReport&);

@@ -118,7 +118,7 @@ PolicyReport measure_policies(const runtime::Device& device, Real real,
         program.functions = needed(selected);
         program.build_options = build.flag;
         evaluators.push_back(std::make_unique<runtime::DeviceEvaluator>(device, build.math, real, program));
-        report.entries.push_back({build, evaluators.back()->build_options(), {}});
+        report.entries.push_back({build, evaluators.back()->program().build_options(), {}});
     }
     PointwiseOptions pointwise;
     pointwise.seed = options.seed;

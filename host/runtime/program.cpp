@@ -1,0 +1,87 @@
+#include "runtime/program.h"
+
+namespace vndf::runtime {
+namespace {
+
+std::string all_options(const Device& device, Math math, Real real, const ProgramOptions& options) {
+    std::string text =
+        fmt::format("-cl-std=CL1.2 -DVNDF_REAL={} -DVNDF_MATH={}", to_string(real), to_string(math));
+    if (device.correct_divide_sqrt) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    if (!device.fma) text += " -DVNDF_SOFTWARE_FMA=1";
+    if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
+    if (!options.build_options.empty()) text += ' ' + options.build_options;
+    return text;
+}
+
+std::string indented(const std::string& text) {
+    std::string out;
+    for (char c : text) out += c == '\n' ? std::string("\n  ") : std::string(1, c);
+    return out;
+}
+
+}  // namespace
+
+Program::Program(const Device& device, Math math, Real real, const ProgramOptions& options)
+    : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
+    require_real(device, real);
+    guarded(fmt::format("use \"{}\"", device.name), [&] {
+        context_ = cl::Context(device.handle);
+        // With profiling for those who time their launches.
+        queue_ = cl::CommandQueue(context_, device.handle, CL_QUEUE_PROFILING_ENABLE);
+    });
+    build(options);
+}
+
+Program::Program(const Program& beside, Math math, Real real, const ProgramOptions& options)
+    : device_(beside.device_),
+      math_(math),
+      real_(real),
+      build_options_(all_options(device_, math, real, options)),
+      context_(beside.context_),
+      queue_(beside.queue_) {
+    require_real(device_, real);
+    build(options);
+}
+
+void Program::build(const ProgramOptions& options) {
+    std::vector<SourceFile> files = embedded_sources();
+    files.insert(files.end(), options.more_files.begin(), options.more_files.end());
+    const std::string source =
+        assemble(options.root, {options.functions, options.substitutions}, files) + options.more_source;
+    const auto refused = [&](cl_int error, const std::string& log) {
+        return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", options.root,
+                                       device_.name, device_.platform_version, opencl_error_name(error),
+                                       build_options_, indented(log)));
+    };
+    try {
+        program_ = cl::Program(context_, source);
+        program_.build({device_.handle}, build_options_.c_str());
+    } catch (const cl::BuildError& error) {
+        std::string log;
+        for (const auto& [_, text] : error.getBuildLog()) log += text;
+        throw refused(error.err(), log);
+    } catch (const cl::Error& error) {
+        throw refused(error.err(), fmt::format("{} failed", error.what()));
+    }
+}
+
+bool Program::has_kernel(const std::string& name) const {
+    const std::string names = ';' + program_.getInfo<CL_PROGRAM_KERNEL_NAMES>() + ';';
+    return names.find(';' + name + ';') != names.npos;
+}
+
+void Program::launch(const cl::Kernel& kernel, std::size_t items, cl::Event* event) const {
+    const std::size_t allowed = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device_.handle);
+    std::size_t local = group_size;
+    while (local > allowed) local /= 2;
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(whole_groups(items)), cl::NDRange(local),
+                                nullptr, event);
+}
+
+DeviceError Program::failure(const std::string& deed, const cl::Error& error) const {
+    return DeviceError(fmt::format("cannot {} on \"{}\" ({}): {} failed with {}\n  options: {}", deed,
+                                   device_.name, device_.platform_version, error.what(),
+                                   opencl_error_name(error.err()), build_options_));
+}
+
+}  // namespace vndf::runtime
