@@ -18,8 +18,8 @@ struct Largest {
 template <class Judge>
 Largest exhaust(float low, float high, Judge judge) {
     const std::uint32_t first = std::bit_cast<std::uint32_t>(low), last = std::bit_cast<std::uint32_t>(high);
-    std::vector<Largest> parts(vndf::vndf::thread_count());
-    vndf::vndf::parallel_for(
+    std::vector<Largest> parts(vndf::thread_count());
+    vndf::parallel_for(
         std::size_t{last} - first + 1, std::size_t{1} << 20,
         [&](unsigned thread, std::size_t begin, std::size_t end) {
             Largest& largest = parts[thread];

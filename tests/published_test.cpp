@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/sources.h"
 #include "conformance/inputs/grids.h"
 #include "conformance/judge/known_bias.h"
 #include "conformance/judge/lobes.h"

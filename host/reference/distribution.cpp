@@ -1,4 +1,4 @@
-// One sampler's lobe, and its pivots (stretched.h has the formulas).
+// One density's lobe, and its pivots (stretched.h has the formulas).
 #include "reference/distribution.h"
 
 #include <algorithm>
@@ -12,29 +12,6 @@
 namespace vndf::reference {
 namespace {
 
-struct Known {
-    std::string_view sampler;
-    bool beckmann, walter, world, reflected;
-    enum { plain, polygon, conic } support = plain;
-    bool one_alpha = world;
-};
-constexpr Known known[] = {
-    {"vndf_ggx_sample_wm_heitz_deon2014", false, false, false, false},
-    {"vndf_ggx_sample_wm_heitz_deon2014_exact", false, false, false, false},
-    {"vndf_ggx_sample_wm_heitz2017", false, false, false, false},
-    {"vndf_ggx_sample_wm_heitz2018", false, false, false, false},
-    {"vndf_ggx_sample_wm_dupuy2023", false, false, false, false},
-    {"vndf_ggx_sample_wm_benyoub2024", false, false, true, false},
-    {"vndf_ggx_sample_wi_eto2023", false, false, false, true},
-    {"vndf_ggx_sample_wi_eto2023_polygon", false, false, false, true, Known::polygon},
-    {"vndf_ggx_sample_wi_conic2026", false, false, false, true, Known::conic},
-    {"vndf_ggx_sample_wi_conic2026_isotropic", false, false, false, true, Known::conic, true},
-    {"vndf_ggx_sample_wm_walter2007", false, true, false, false},
-    {"vndf_beckmann_sample_wm_heitz_deon2014", true, false, false, false},
-    {"vndf_beckmann_sample_wm_jakob2014", true, false, false, false},
-    {"vndf_beckmann_sample_wm_walter2007", true, true, false, false},
-};
-
 Vec3d plain(const Vec3<double>& v) {
     return {v.x, v.y, v.z};
 }
@@ -43,49 +20,80 @@ double clip(double p) {
     return p > 0 ? p < 1 ? p : 1 : 0;  // NaN: 0
 }
 
+Vec3<double> vec3(const Vec3d& v) {
+    return {v.x, v.y, v.z};
+}
+
+// The mirror image of wo about a visible normal.
+Sample<double> ggx_reflection(const Arguments<double>& in) {
+    return {reflect(in.wo, ggx_dupuy2023(in).direction), 0};
+}
+Sample<double> beckmann_reflection(const Arguments<double>& in) {
+    return {reflect(in.wo, beckmann_jakob2014(in).direction), 0};
+}
+
 }  // namespace
 
-Distribution::Distribution(std::string_view sampler, const double* in, Precision precision)
-    : precision_(precision) {
-    constexpr std::string_view suffix = "_with_pdf";
-    if (sampler.size() > suffix.size() && sampler.substr(sampler.size() - suffix.size()) == suffix)
-        sampler.remove_suffix(suffix.size());
-    const auto at = std::find_if(std::begin(known), std::end(known),
-                                 [&](const Known& k) { return k.sampler == sampler; });
-    if (at == std::end(known)) throw std::invalid_argument("no distribution for " + std::string(sampler));
-    sampler_ = at->sampler;
-    in_.assign(in, in + (at->walter ? 4 : at->world ? 9 : at->one_alpha ? 6 : 7));
-    reflected_ = at->reflected;
-    world_ = at->world;
+struct Distribution::Known {
+    std::string_view density;
+    Kind kind;  // in front of the surface
+    enum class Variable { wm, wm_world, wm_plain, wi } variable;
+    Sample<double> (*map)(const Arguments<double>&);  // draws from it
+    bool polygon = false;                             // the bound of the cap
+};
 
-    const double* alpha = in + (at->walter ? 0 : at->world ? 6 : 3);
+const Distribution::Known& Distribution::known(std::string_view density) {
+    using enum Known::Variable;
+    static const Known all[] = {
+        {"vndf_ggx_pdf_wm", Kind::ggx, wm, ggx_dupuy2023<double>},
+        {"vndf_ggx_pdf_wi", Kind::ggx, wi, ggx_reflection},
+        {"vndf_ggx_pdf_wm_benyoub2024", Kind::ggx, wm_world, ggx_benyoub2024<double>},
+        {"vndf_ggx_pdf_wi_eto2023", Kind::bounded, wi, ggx_eto2023<double>},
+        {"vndf_ggx_pdf_wi_eto2023_polygon", Kind::bounded, wi, ggx_eto2023_polygon<double>, true},
+        {"vndf_ggx_pdf_wi_conic2026", Kind::conic, wi, ggx_conic2026<double>},
+        {"vndf_ggx_pdf_wm_walter2007", Kind::ggx, wm_plain, ggx_walter2007<double>},
+        {"vndf_beckmann_pdf_wm", Kind::beckmann, wm, beckmann_jakob2014<double>},
+        {"vndf_beckmann_pdf_wi", Kind::beckmann, wi, beckmann_reflection},
+        {"vndf_beckmann_pdf_wm_walter2007", Kind::beckmann, wm_plain, beckmann_walter2007<double>},
+    };
+    const auto at =
+        std::find_if(std::begin(all), std::end(all), [&](const Known& k) { return k.density == density; });
+    if (at == std::end(all)) throw std::invalid_argument("no distribution for " + std::string(density));
+    return *at;
+}
+
+Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision precision)
+    : known_(known(density)), precision_(precision), lobe_(lobe) {
+    reflected_ = known_.variable == Known::Variable::wi;
+    world_ = known_.variable == Known::Variable::wm_world;
     const auto raised = [&](double a) {
         return std::max(a, precision == Precision::f32 ? double(1e-8f) : 1e-8);
     };
-    alpha_x_ = raised(alpha[0]);
-    alpha_y_ = raised(alpha[at->one_alpha ? 0 : 1]);
+    lobe_.alpha_x = alpha_x_ = raised(lobe.alpha_x);
+    lobe_.alpha_y = alpha_y_ = raised(lobe.alpha_y);
 
     // The plain NDF times the cosine is what a view along the normal sees.
-    Vec3<double> wo = at->walter ? Vec3<double>{0, 0, 1} : normalised<double>({in[0], in[1], in[2]});
+    Vec3<double> wo = known_.variable == Known::Variable::wm_plain ? Vec3<double>{0, 0, 1}
+                                                                   : normalised<double>(vec3(lobe.wo));
+    lobe_.wo = plain(wo);
     Frame<double> f{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (world_) {
-        f = frame(normalised<double>({in[3], in[4], in[5]}));
+        f = frame(normalised<double>(vec3(lobe.n)));
         wo = to_local(f, wo);
     }
     frame_ = {plain(f.t1), plain(f.t2), plain(f.n)};
+    lobe_.n = frame_[2];
     wo_ = plain(wo);
 
     const View<double> v = view(wo, alpha_x_, alpha_y_);
     ex_ = v.ex, ey_ = v.ey, length_ = v.length, sin_ = v.sin_theta, cos_ = v.cos_theta;
     sigma_ = std::pow(std::sin(v.nu / 2), 2);
     tan_half_ = std::sin(v.theta / 2) / std::sin(v.nu / 2);
-    kind_ = at->beckmann                  ? Kind::beckmann
-            : !reflected_ || !(wo.z > 0)  ? Kind::ggx
-            : at->support == Known::conic ? Kind::conic
-                                          : Kind::bounded;
+    const bool behind = !(wo.z > 0);  // where every reflection is that of the plain cap
+    kind_ = behind && known_.kind != Kind::beckmann ? Kind::ggx : known_.kind;
     const Slopes<double> s = beckmann_slopes(v.sin_theta, v.cos_theta);
     a_ = s.a, weight_ = s.weight;
-    const Bound<double> b = at->support == Known::polygon ? polygon_bound(v, wo) : bound(v, wo);
+    const Bound<double> b = known_.polygon ? polygon_bound(v, wo) : bound(v, wo);
     k_ = b.k, gap_ = b.gap, cap_ = b.up / 2;
     if (kind_ == Kind::conic) {
         k_ = 0, cap_ = visible_area();
@@ -249,15 +257,23 @@ template void Distribution::pivots(std::size_t, const float*, const float*, cons
 template void Distribution::pivots(std::size_t, const double*, const double*, const double*, double*,
                                    double*) const;
 
+std::array<double, 3> Distribution::draw(double u1, double u2) const {
+    Arguments<double> in;
+    in.wo = vec3(lobe_.wo), in.n = vec3(lobe_.n);
+    in.alpha_x = alpha_x_, in.alpha_y = alpha_y_;
+    in.u1 = u1, in.u2 = u2, in.v1 = 1 - u1, in.v2 = 1 - u2;
+    in.least_u = precision_ == Precision::f32 ? 0x1p-33 : 0x1p-65;
+    in.rotation = 0;
+    const Vec3<double> d = known_.map(in).direction;
+    return {d.x, d.y, d.z};
+}
+
 double Distribution::pivot_rounding() const {
-    const auto evaluate = find_evaluation<double>(sampler_);
     double worst = 0;
     for (const double u1 : {0.2, 0.5, 0.8})
         for (const double u2 : {0.2, 0.5, 0.8}) {
-            std::vector<double> in = in_;
-            in[in.size() - 2] = u1, in[in.size() - 1] = u2;
-            double d[3], p[2] = {}, q[2] = {};
-            evaluate(in.data(), d, precision_);
+            std::array<double, 3> d = draw(u1, u2);
+            double p[2] = {}, q[2] = {};
             pivots(1, &d[0], &d[1], &d[2], &p[0], &p[1]);
             for (int i = 0; i < 3; ++i) {
                 const double exact = d[i];

@@ -1,12 +1,11 @@
-// The distribution of one sampler's directions for one lobe: pivots, moments, bins, quadrature.
+// A registered density for one lobe: pivots, moments, bins, quadrature.
 //
-// All of it follows the registered density, never the sampler's map: for the approximate 2014 fit this is the
-// exact distribution, so that its bias shows.
+// It knows no sampler: what one draws is judged by the density that it is registered with, the approximate fit of 2014
+// too, so that its bias shows.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,10 +17,17 @@ struct Vec3d {
     double x, y, z;
 };
 
+// What a density is about. What it does not depend on is not read.
+struct Lobe {
+    Vec3d wo{0, 0, 1};                // of any length, in the frame that n is given in
+    Vec3d n{0, 0, 1};                 // of the surface, for the densities in world space
+    double alpha_x = 1, alpha_y = 1;  // below 1e-8 as 1e-8
+};
+
 // First and second moments of a unit direction d, and the variances of the quantities averaged: the standard
 // error of a mean of n samples is sqrt(variance / n).
 struct Moments {
-    // d_x, d_y, d_z; d_x d_x, d_y d_y, d_z d_z, d_x d_y, d_x d_z, d_y d_z; d . wo (d . n for walter2007).
+    // d_x, d_y, d_z; d_x d_x, d_y d_y, d_z d_z, d_x d_y, d_x d_z, d_y d_z; d . wo (d . n for plain normals).
     static constexpr int count = 10;
     static constexpr std::array<const char*, count> names = {"x",  "y",  "z",  "xx", "yy",
                                                              "zz", "xy", "xz", "yz", "wo"};
@@ -32,7 +38,7 @@ struct Moments {
 // Nodes d and weights so that  sum w f(d)  is the integral of f over the sphere (solid angle) for functions f
 // shaped like the density, and  sum p f(d)  the expectation of f: p = w * density.
 struct QuadratureRule {
-    std::vector<double> x, y, z;      // unit directions (wm or wi by the sampler's result)
+    std::vector<double> x, y, z;      // unit directions, wm or wi
     std::vector<double> weight;       // solid angle
     std::vector<double> probability;  // weight * density; sums to 1
     std::size_t size() const { return x.size(); }
@@ -45,9 +51,8 @@ struct Bins {
 
 class Distribution {
   public:
-    // `sampler`: a registered sampler's name (with or without _with_pdf); `in`: its scalars in the registry's
-    // order (u is not read). Throws std::invalid_argument for another name.
-    Distribution(std::string_view sampler, const double* in, Precision precision = Precision::f32);
+    // Throws std::invalid_argument unless `density` is the name of one.
+    Distribution(std::string_view density, const Lobe& lobe, Precision precision = Precision::f32);
 
     // Two numbers for each direction (wm or wi), independent and uniform in [0, 1] if the directions follow
     // the density. They are clipped to [0, 1]; a direction outside the support gives a number at its end.
@@ -55,8 +60,7 @@ class Distribution {
     void pivots(std::size_t n, const T* x, const T* y, const T* z, double* p1, double* p2) const;
 
     // The variable of the histogram: polar angle and azimuth (in [0, 2 pi)) about the normal of the surface,
-    // of the direction itself (WM) or of the half vector of direction and wo (WI). For benyoub2024 they are
-    // taken about n.
+    // of the direction itself (wm) or of the half vector of direction and wo (wi); in world space about n.
     template <class T>
     void angles(std::size_t n, const T* x, const T* y, const T* z, double* theta, double* phi) const;
 
@@ -76,16 +80,20 @@ class Distribution {
     // estimate from the lobe alone: pivot tests of float samples make sense where it is below about 1e-3.
     double pivot_rounding() const;
 
-    // The probability that a visible normal reflects wo above the horizon, by quadrature along the horizon's curve; of the
-    // samplers that give no others. 1 behind the surface.
+    // The probability that a visible normal reflects wo above the horizon, by quadrature along the horizon's curve; for the
+    // density of those reflections alone. 1 behind the surface.
     double reflection_probability() const { return kind_ == Kind::conic ? cap_ / sigma_ : 1; }
 
   private:
     // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
     enum class Kind { ggx, bounded, conic, beckmann };
+    struct Known;
     struct Range;
     struct Node;
 
+    static const Known& known(std::string_view density);
+    // A direction of this density by one of the maps that draw from it.
+    std::array<double, 3> draw(double u1, double u2) const;
     Vec3d half(double x, double y, double z) const;
     double normaliser() const;
     double visible_area() const;
@@ -100,9 +108,9 @@ class Distribution {
     template <class T, Kind kind>
     void pivots_of(std::size_t n, const T* x, const T* y, const T* z, double* p1, double* p2) const;
 
-    std::string sampler_;
-    std::vector<double> in_;
+    const Known& known_;
     Precision precision_;
+    Lobe lobe_;  // wo and n of unit length, alpha raised
     Kind kind_;
     bool reflected_;              // directions are wi
     bool world_;                  // directions are not in the local frame

@@ -40,18 +40,16 @@ std::vector<double> quantile_edges(std::vector<double> values, std::size_t n, do
 }  // namespace
 
 Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
-    const auto evaluate = find_evaluation<double>(sampler_);
-    std::vector<double> in = in_, thetas, phis;
+    std::vector<double> thetas, phis;
     // About opposite to e, where behind the surface nothing is visible, but not in a plane of symmetry; azimuths
     // as angles() counts them.
     double start = std::atan2(-ey_, -ex_) + 1e-3;
     if (start < 0) start += 2 * pi_d;
     constexpr int count = 8192;
     for (int i = 0; i < count; ++i) {  // the plastic number's low-discrepancy sequence
-        in[in.size() - 2] = std::fmod(0.5 + 0.7548776662466927 * i, 1);
-        in[in.size() - 1] = std::fmod(0.5 + 0.5698402909980532 * i, 1);
-        double d[3], theta, phi;
-        evaluate(in.data(), d, precision_);
+        double theta, phi;
+        const std::array<double, 3> d =
+            draw(std::fmod(0.5 + 0.7548776662466927 * i, 1), std::fmod(0.5 + 0.5698402909980532 * i, 1));
         angles(1, &d[0], &d[1], &d[2], &theta, &phi);
         thetas.push_back(theta);
         phis.push_back(phi < start ? phi + 2 * pi_d : phi);

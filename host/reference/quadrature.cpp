@@ -92,9 +92,7 @@ QuadratureRule Distribution::rule(int fineness) const {
 
 Moments Distribution::moments() const {
     const QuadratureRule nodes = rule(1);
-    const Vec3d seen = sampler_.find("walter2007") != std::string::npos ? Vec3d{0, 0, 1}
-                       : world_                                         ? Vec3d{in_[0], in_[1], in_[2]}
-                                                                        : wo_;
+    const Vec3d& seen = lobe_.wo;
     const auto quantities = [&](std::size_t i) {
         const double x = nodes.x[i], y = nodes.y[i], z = nodes.z[i];
         return std::array<double, Moments::count>{

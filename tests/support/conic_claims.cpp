@@ -35,11 +35,10 @@ Lost count_lost(std::uint64_t directions) {
 
 namespace {
 
-const char* const sampler = "vndf_ggx_sample_wi_conic2026";
-
 reference::Distribution distribution(const Lobe& at) {
-    const double in[] = {at.x, at.y, at.z, at.alpha_x, at.alpha_y, 0.5, 0.5};
-    return {sampler, in, reference::Precision::f64};
+    return {"vndf_ggx_pdf_wi_conic2026",
+            {.wo = {at.x, at.y, at.z}, .alpha_x = at.alpha_x, .alpha_y = at.alpha_y},
+            reference::Precision::f64};
 }
 
 }  // namespace

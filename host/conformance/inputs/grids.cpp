@@ -64,20 +64,20 @@ const std::vector<Direction>& lobe_axes() {
 
 }  // namespace
 
-std::vector<Point> lobes(const Function& sampler, bool quick) {
+std::vector<Point> lobes(const Function& function, bool quick) {
     const std::vector<double> azimuths{0.7, 0, -2.2, 1.9};
-    const bool world = uses(sampler, {"n_x"});
+    const bool world = uses(function, {"n_x"});
     std::vector<Point> points;
     for (std::size_t row = 0; row < lobe_alphas().size(); ++row) {
         std::vector<double> cosines{1, 0.9, 0.5, 0.1, 0.001};
-        if (sampler.domain == Domain::sphere) cosines.push_back(row % 2 ? -0.001 : -0.5);
+        if (function.domain == Domain::sphere) cosines.push_back(row % 2 ? -0.001 : -0.5);
         for (std::size_t i = 0; i < cosines.size(); ++i) {
             const Direction wo = direction(cosines[i], azimuths[(row + i) % azimuths.size()]);
             const Direction n = world ? lobe_axes()[(row + i) % lobe_axes().size()] : Direction{0, 0, 1};
             points.push_back(make_point(wo, lobe_alphas()[row], {1, 0}, n, {0.5, 0.5}, 1.5));
         }
     }
-    points = distinct(sampler, points);
+    points = distinct(function, points);
     if (!quick) return points;
     const std::size_t stride = points.size() / 12;  // one for each alpha, through the angles in turn
     std::vector<Point> some;

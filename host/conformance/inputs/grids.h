@@ -10,9 +10,9 @@
 
 namespace vndf::conformance {
 
-// Lobes for the statistical checks of `sampler`: at least 60 for those that depend on wo (12 when quick),
+// Lobes for the statistical checks of a sampler or a density: at least 60 for those that depend on wo (12 when quick),
 // each different in the function's own arguments.
-std::vector<Point> lobes(const Function& sampler, bool quick);
+std::vector<Point> lobes(const Function& function, bool quick);
 
 // The hard grid of `function`: corners of every argument range (about 30 000 points for a sampler).
 std::vector<Point> hard_points(const Function& function);

@@ -36,6 +36,13 @@ std::array<double, 2> RowReader::alpha(const double* row) const {
     return {row[alpha_], row[alpha_ + alpha_columns_ - 1]};
 }
 
+reference::Lobe RowReader::lobe(const double* row) const {
+    const auto [ox, oy, oz] = wo(row);
+    const auto [nx, ny, nz] = n(row);
+    const auto [alpha_x, alpha_y] = alpha(row);
+    return {{ox, oy, oz}, {nx, ny, nz}, alpha_x, alpha_y};
+}
+
 double RowReader::cos_theta_o(const double* row) const {
     const Direction o = wo(row), axis = n(row);
     return dot(o, axis) / (length(o) * length(axis));

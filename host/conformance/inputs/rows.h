@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "conformance/inputs/points.h"
-#include "reference/reference.h"
+#include "reference/distribution.h"
 #include "runtime/evaluator.h"
 
 namespace vndf::conformance {
@@ -31,6 +31,9 @@ class RowReader {
     Direction wm(const double* row) const { return read(row, wm_); }
     Direction wi(const double* row) const { return read(row, wi_); }
     std::array<double, 2> alpha(const double* row) const;
+
+    // What a density is about.
+    reference::Lobe lobe(const double* row) const;
 
     // The cosine between wo and the macroscopic normal; 1 without wo.
     double cos_theta_o(const double* row) const;

@@ -141,7 +141,8 @@ template <class T>
 std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
                                 const T* x, const T* y, const T* z, double level, const KnownBias& bias) {
     const Real real = sizeof(T) == sizeof(float) ? Real::f32 : Real::f64;
-    const reference::Distribution distribution(sampler.name, row.data(), precision(real));
+    const reference::Distribution distribution(sampler.density, RowReader(sampler).lobe(row.data()),
+                                               precision(real));
     const reference::Bins bins = distribution.bins(angle_bins, angle_bins);
     const Quantities quantities(sampler, row);
     const Tally tally = count(distribution, bins, quantities, n, x, y, z);
