@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "conformance/judge/known_bias.h"
-#include "conformance/judge/samplers.h"
+#include "conformance/judge/pointwise.h"
 #include "cpp_build.h"
 #include "inputs.h"
 #include "sources.h"
@@ -194,9 +194,9 @@ std::string Session::copy_entry(std::size_t reads, std::size_t writes, Real real
     Entry fastest;
     double best_s = INFINITY;
     for (const Copy copy : copies) {
-        cl::Kernel kernel =
-            runtime::Program(arithmetic_, Math::strict, real, own_program(copy_source(copy, reads, writes, real)))
-                .kernel("vndf_copy");
+        cl::Kernel kernel = runtime::Program(arithmetic_, Math::strict, real,
+                                             own_program(copy_source(copy, reads, writes, real)))
+                                .kernel("vndf_copy");
         cl_uint argument = 0;
         for (std::size_t i = 0; i < reads; ++i) {
             const std::string key = fmt::format("copy {}", i);
@@ -230,7 +230,8 @@ std::string Session::arithmetic_entry() {
     cl::Kernel kernel = arithmetic_.kernel("vndf_arithmetic");
     kernel.setArg(0, output(0));
     kernel.setArg(1, 0.5f);
-    Entry entry = long_entry(kernel, runtime::group_size * arithmetic_.device().compute_units, column_bytes / sizeof(float));
+    Entry entry = long_entry(kernel, runtime::group_size * arithmetic_.device().compute_units,
+                             column_bytes / sizeof(float));
     entry.samples *= arithmetic_operations;
     entry.name = name;
     entry.label = "a sample is one operation; an fma is two";

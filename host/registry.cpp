@@ -11,8 +11,14 @@ namespace {
 
 constexpr Ndf GGX = Ndf::ggx, BECKMANN = Ndf::beckmann, ANY = Ndf::any;
 constexpr Method EXACT = Method::exact, APPROXIMATE = Method::approximate;
-constexpr Domain SPHERE = Domain::sphere, UPPER = Domain::upper;
-constexpr Kind TERM = Kind::term, DENSITY = Kind::density, GEOMETRY = Kind::geometry;
+constexpr Domain SPHERE = Domain::sphere;
+constexpr auto VISIBLE = Support::visible, MIRRORED = Support::mirrored, CAP = Support::cap,
+               ABOVE = Support::above;
+// UPPER is a domain and a support.
+constexpr struct {
+    operator Domain() const { return Domain::upper; }
+    operator Support() const { return Support::upper; }
+} UPPER;
 
 Function with_pdf(Function sampler) {
     sampler.name += "_with_pdf";
@@ -21,27 +27,51 @@ Function with_pdf(Function sampler) {
     return sampler;
 }
 
-std::vector<Function> read_registry() {
+std::vector<Function> read_functions() {
     std::vector<Function> all;
 #define VNDF_NAME(scalar) #scalar,
 #define VNDF_RESULT_NAME(scalar, member) #scalar,
-#define VNDF_COMMON(name_, ndf_, arguments_, result_, source_)                                         \
-    Function f;                                                                                        \
-    f.name = #name_, f.arguments = #arguments_, f.result = #result_, f.source = source_, f.ndf = ndf_; \
-    f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                                                 \
+#define VNDF_TUPLE(...) \
+    { __VA_ARGS__ }
+#define VNDF_ROW(kind_, name_, ndf_, arguments_, result_, source_)        \
+    Function f;                                                           \
+    f.name = f.plain = #name_, f.source = source_;                        \
+    f.arguments = #arguments_, f.signature = VNDF_ARGUMENTS_##arguments_; \
+    f.result = #result_, f.kind = kind_, f.ndf = ndf_;                    \
+    f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                    \
     f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};
-#define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, front, back, source) \
-    {                                                                                               \
-        VNDF_COMMON(name, ndf, arguments, result, source)                                           \
-        f.kind = Kind::sampler, f.density = #density_, f.method = method_, f.domain = domain_;      \
-        f.p99_front = front, f.p99_back = back;                                                     \
-        all.push_back(f), all.push_back(with_pdf(f));                                               \
+#define VNDF_ERRORS(in_float, in_double) f.float_bounds.error = in_float, f.double_bounds.error = in_double;
+#define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, in_float, in_double, source) \
+    {                                                                                                       \
+        VNDF_ROW(Kind::sampler, name, ndf, arguments, result, source)                                       \
+        f.density = #density_, f.method = method_, f.domain = domain_;                                      \
+        f.float_bounds.sampler = VNDF_TUPLE in_float;                                                       \
+        f.double_bounds.sampler = VNDF_TUPLE in_double;                                                     \
+        all.push_back(f), all.push_back(with_pdf(f));                                                       \
     }
-#define VNDF_FUNCTION(name, ndf, arguments, result, kind_, bound_, source) \
-    {                                                                      \
-        VNDF_COMMON(name, ndf, arguments, result, source)                  \
-        f.kind = kind_, f.bound = bound_;                                  \
-        all.push_back(f);                                                  \
+#define VNDF_DENSITY(name, ndf, arguments, support_, in_float, in_double, source) \
+    {                                                                             \
+        VNDF_ROW(Kind::density, name, ndf, arguments, VALUE, source)              \
+        VNDF_ERRORS(in_float, in_double)                                          \
+        f.support = support_, all.push_back(f);                                   \
+    }
+#define VNDF_TERM(name, ndf, arguments, in_float, in_double, source) \
+    {                                                                \
+        VNDF_ROW(Kind::term, name, ndf, arguments, VALUE, source)    \
+        VNDF_ERRORS(in_float, in_double)                             \
+        all.push_back(f);                                            \
+    }
+#define VNDF_INVERSE(name, ndf, arguments, sampler_, in_float, in_double, source) \
+    {                                                                             \
+        VNDF_ROW(Kind::inverse, name, ndf, arguments, U, source)                  \
+        VNDF_ERRORS(in_float, in_double)                                          \
+        f.sampler = #sampler_, all.push_back(f);                                  \
+    }
+#define VNDF_GEOMETRY(name, ndf, arguments, result, in_float, in_double, source) \
+    {                                                                            \
+        VNDF_ROW(Kind::geometry, name, ndf, arguments, result, source)           \
+        VNDF_ERRORS(in_float, in_double)                                         \
+        all.push_back(f);                                                        \
     }
 #include "../kernels/registry.def"
     return all;
@@ -65,7 +95,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 const std::vector<Function>& functions() {
-    static const std::vector<Function> all = read_registry();
+    static const std::vector<Function> all = read_functions();
+    return all;
+}
+
+const std::vector<Lobe>& lobe_functions() {
+    static const std::vector<Lobe> all = {
+#define VNDF_LOBE(name, ndf, arguments, type, source) {#name, VNDF_ARGUMENTS_##arguments, type, source, ndf},
+#include "../kernels/registry.def"
+    };
     return all;
 }
 
@@ -89,21 +127,43 @@ std::vector<std::string> nearest_names(std::string_view name, std::size_t count)
     return names;
 }
 
+bool has_exponent(Ndf ndf) {
+    switch (ndf) {
+        case Ndf::beckmann:
+            return true;
+        case Ndf::ggx:
+        case Ndf::any:
+            return false;
+    }
+    return false;
+}
+
 std::string_view to_string(Ndf ndf) {
-    return ndf == Ndf::ggx ? "ggx" : ndf == Ndf::beckmann ? "beckmann" : "any";
+    switch (ndf) {
+        case Ndf::ggx:
+            return "ggx";
+        case Ndf::beckmann:
+            return "beckmann";
+        case Ndf::any:
+            return "any";
+    }
+    return {};
 }
 
 std::string_view to_string(Kind kind) {
     switch (kind) {
         case Kind::sampler:
             return "sampler";
-        case Kind::term:
-            return "term";
         case Kind::density:
             return "density";
-        default:
+        case Kind::term:
+            return "term";
+        case Kind::inverse:
+            return "inverse";
+        case Kind::geometry:
             return "geometry";
     }
+    return {};
 }
 
 std::string_view to_string(Method method) {
@@ -112,6 +172,22 @@ std::string_view to_string(Method method) {
 
 std::string_view to_string(Domain domain) {
     return domain == Domain::sphere ? "sphere" : "upper";
+}
+
+std::string_view to_string(Support support) {
+    switch (support) {
+        case Support::upper:
+            return "upper";
+        case Support::visible:
+            return "visible";
+        case Support::mirrored:
+            return "mirrored";
+        case Support::cap:
+            return "cap";
+        case Support::above:
+            return "above";
+    }
+    return {};
 }
 
 }  // namespace vndf

@@ -8,14 +8,30 @@
 namespace vndf {
 
 enum class Ndf { ggx, beckmann, any };
-enum class Kind { sampler, term, density, geometry };
+enum class Kind { sampler, density, term, inverse, geometry };
 enum class Method { exact, approximate };
 enum class Domain { sphere, upper };
+enum class Support { upper, visible, mirrored, cap, above };
+
+// What `strict` promises, in units of 2^-24 (float) or 2^-53 (double); registry.def says of what.
+struct SamplerBounds {
+    double front = 0,
+           back = 0;  // angle over 1 + condition number, 99th percentile; back 0: not defined there
+    double core = 0, core_max = 0;  // 99.9th percentile, maximum
+    double pdf = 0, pdf_core_max = 0;
+    double agreement = 0;
+};
+struct Bounds {
+    SamplerBounds sampler;
+    double error = 0;  // of other kinds
+};
 
 struct Function {
     std::string name;       // with the suffix _with_pdf for that form of a sampler
+    std::string plain;      // without it
     std::string arguments;  // the registry's token, e.g. "WO_ALPHA_U"
-    std::string result;     // "WM", "WI" or "VALUE"
+    std::string signature;  // "wo, alpha, u"
+    std::string result;     // "WM", "WI", "VALUE" or "U"
     std::string source;
     Ndf ndf = Ndf::any;
     Kind kind = Kind::term;
@@ -26,19 +42,24 @@ struct Function {
     std::vector<std::string> inputs;
     std::vector<std::string> outputs;
 
-    // Samplers only.
-    std::string density;  // the registered density of the samples
+    std::string density;  // of a sampler: the registered density of the samples
     Method method = Method::exact;
     Domain domain = Domain::sphere;
-    double p99_front = 0;  // units of 2^-24 (1 + condition number)
-    double p99_back = 0;
+    Support support = Support::upper;  // of a density
+    std::string sampler;               // of an inverse: whose directions it takes
 
-    // Other kinds: maximum relative error in units of 2^-24.
-    double bound = 0;
+    Bounds float_bounds, double_bounds;
 };
 
 // Every function, in the registry's order; each sampler is followed by its _with_pdf form.
 const std::vector<Function>& functions();
+
+// What sets up a lobe for functions that take one: no function of numbers alone.
+struct Lobe {
+    std::string name, signature, type, source;
+    Ndf ndf = Ndf::any;
+};
+const std::vector<Lobe>& lobe_functions();
 
 // The function of exactly this name, or nullptr.
 const Function* find_function(std::string_view name);
@@ -46,9 +67,13 @@ const Function* find_function(std::string_view name);
 // Up to `count` registered names nearest to `name` (edit distance), nearest first.
 std::vector<std::string> nearest_names(std::string_view name, std::size_t count = 3);
 
+// Whether the distribution is exponential in the slopes, so that errors grow with the exponent.
+bool has_exponent(Ndf);
+
 std::string_view to_string(Ndf);
 std::string_view to_string(Kind);
 std::string_view to_string(Method);
 std::string_view to_string(Domain);
+std::string_view to_string(Support);
 
 }  // namespace vndf

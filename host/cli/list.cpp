@@ -11,19 +11,33 @@
 namespace vndf::cli {
 namespace {
 
+nlohmann::ordered_json bounds(const Function& f, const Bounds& b) {
+    if (f.kind != Kind::sampler) return {{"error", b.error}};
+    const SamplerBounds& s = b.sampler;
+    nlohmann::ordered_json json = {{"front", s.front},
+                                   {"back", s.back},
+                                   {"core", s.core},
+                                   {"core_max", s.core_max},
+                                   {"pdf", s.pdf},
+                                   {"pdf_core_max", s.pdf_core_max},
+                                   {"agreement", s.agreement}};
+    if (s.back == 0) json["back"] = nullptr;
+    return json;
+}
+
 nlohmann::ordered_json to_json(const Function& f) {
     nlohmann::ordered_json json = {
-        {"name", f.name},     {"ndf", to_string(f.ndf)}, {"kind", to_string(f.kind)},
-        {"inputs", f.inputs}, {"outputs", f.outputs},    {"source", f.source}};
+        {"name", f.name},           {"ndf", to_string(f.ndf)}, {"kind", to_string(f.kind)},
+        {"signature", f.signature}, {"inputs", f.inputs},      {"outputs", f.outputs},
+        {"source", f.source}};
     if (f.kind == Kind::sampler) {
         json["density"] = f.density;
         json["method"] = to_string(f.method);
         json["domain"] = to_string(f.domain);
-        json["p99_front"] = f.p99_front;
-        json["p99_back"] = f.p99_back;
-    } else {
-        json["bound"] = f.bound;
     }
+    if (f.kind == Kind::density) json["support"] = to_string(f.support);
+    if (f.kind == Kind::inverse) json["sampler"] = f.sampler;
+    json["bounds"] = {{"float", bounds(f, f.float_bounds)}, {"double", bounds(f, f.double_bounds)}};
     return json;
 }
 

@@ -138,13 +138,16 @@ struct Entry {
     X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                           \
     X(vndf_ggx_sample_wi_eto2023_polygon, ggx_eto2023_polygon, wo_alpha_u)           \
     X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wi_conic2026_lobe, ggx_conic2026, wo_alpha_u)                  \
     X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)            \
     X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                        \
     X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)   \
     X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)             \
     X(vndf_beckmann_sample_wm_walter2007, beckmann_walter2007, alpha_u)
 
-#define VNDF_CONDITION(name, map, layout) {#name, sampler_condition<map<D>, Layout::layout>},
+#define VNDF_CONDITION(name, map, layout)               \
+    {#name, sampler_condition<map<D>, Layout::layout>}, \
+        {#name "_with_pdf", sampler_condition<map<D>, Layout::layout>},
 constexpr Condition conditions[] = {VNDF_REFERENCE_SAMPLERS(VNDF_CONDITION)};
 #undef VNDF_CONDITION
 
@@ -321,6 +324,7 @@ constexpr Entry<R> entries[] = {
     {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},
     {"vndf_ggx_pdf_wi_eto2023_polygon", evaluate_term<R, ggx_pdf_wi_bounded_of<R, polygon_bound<R>>>},
     {"vndf_ggx_pdf_wi_conic2026", evaluate_term<R, ggx_pdf_wi_conic2026_of<R>>},
+    {"vndf_ggx_pdf_wi_conic2026_lobe", evaluate_term<R, ggx_pdf_wi_conic2026_of<R>>},
     {"vndf_ggx_sigma_visible", evaluate_term<R, ggx_sigma_visible_of<R>>},
     {"vndf_ggx_reflection_probability", evaluate_term<R, ggx_reflection_probability_of<R>>},
     {"vndf_ggx_invert_wi_conic2026", evaluate_inverse<R>},
@@ -345,14 +349,6 @@ auto find(const Table& table, std::string_view name) {
     return at == std::end(table) ? nullptr : at->function;
 }
 
-// The plain name of a sampler's either form.
-std::string_view plain(std::string_view name) {
-    constexpr std::string_view suffix = "_with_pdf";
-    return name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix
-               ? name.substr(0, name.size() - suffix.size())
-               : name;
-}
-
 }  // namespace
 
 template <class R>
@@ -363,7 +359,7 @@ template Evaluation<double> find_evaluation(std::string_view);
 template Evaluation<long double> find_evaluation(std::string_view);
 
 ConditionFunction find_condition(std::string_view sampler) {
-    return find(conditions, plain(sampler));
+    return find(conditions, sampler);
 }
 
 double condition(std::string_view sampler, const double* in, Precision precision) {

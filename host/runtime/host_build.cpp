@@ -24,10 +24,7 @@ namespace {
         }                                                                               \
     }
 
-#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, p99_front, p99_back, source) \
-    VNDF_HOST(name, arguments, result)                                                                   \
-    VNDF_HOST(name##_with_pdf, arguments, result##_PDF)
-#define VNDF_FUNCTION(name, ndf, arguments, result, kind, bound, source) VNDF_HOST(name, arguments, result)
+#define VNDF_FUNCTION VNDF_HOST
 #include "../../kernels/registry.def"
 
 struct Entry {
@@ -36,11 +33,7 @@ struct Entry {
 };
 
 constexpr Entry entries[] = {
-#define VNDF_ENTRY(name) {#name, batch_##name},
-#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, p99_front, p99_back, source) \
-    VNDF_ENTRY(name)                                                                                     \
-    VNDF_ENTRY(name##_with_pdf)
-#define VNDF_FUNCTION(name, ndf, arguments, result, kind, bound, source) VNDF_ENTRY(name)
+#define VNDF_FUNCTION(name, arguments, result) {#name, batch_##name},
 #include "../../kernels/registry.def"
 };
 

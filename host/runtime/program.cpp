@@ -49,9 +49,9 @@ void Program::build(const ProgramOptions& options) {
     const std::string source =
         assemble(options.root, {options.functions, options.substitutions}, files) + options.more_source;
     const auto refused = [&](cl_int error, const std::string& log) {
-        return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}", options.root,
-                                       device_.name, device_.platform_version, opencl_error_name(error),
-                                       build_options_, indented(log)));
+        return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}",
+                                       options.root, device_.name, device_.platform_version,
+                                       opencl_error_name(error), build_options_, indented(log)));
     };
     try {
         program_ = cl::Program(context_, source);

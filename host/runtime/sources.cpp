@@ -166,7 +166,7 @@ class Assembler {
 
     // Whether a line of the registry stays: all but the functions that nobody asked for.
     bool kept(const std::string& line) const {
-        static const std::regex entry(R"re(^VNDF_(SAMPLER|FUNCTION)\((\w+),)re");
+        static const std::regex entry(R"re(^VNDF_(SAMPLER|DENSITY|TERM|INVERSE|GEOMETRY)\((\w+),)re");
         std::smatch match;
         if (kept_.empty() || !std::regex_search(line, match, entry)) return true;
         return kept_.count(match[2]) || kept_.count(match[2].str() + "_with_pdf");

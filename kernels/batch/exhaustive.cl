@@ -97,12 +97,14 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 #define VNDF_EXHAUSTIVE_UPPER_WM_ALPHA_U(d) (d.z >= VNDF_R(0.0))
 #define VNDF_EXHAUSTIVE_UPPER_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, n) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_UPPER_WI_CONIC2026_LOBE_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA1_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_ALPHA_U(d, inside) 1
 #define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside) \
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
+#define VNDF_EXHAUSTIVE_FACES_WI_CONIC2026_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside)
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA1_U(d, inside) \
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha, alpha), d)
 
@@ -149,6 +151,6 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
         }                                                                                                    \
     }
 
-#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, p99_front, p99_back, source)     \
+#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, float_bounds, double_bounds, source) \
     VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result, VNDF_EXHAUSTIVE_INSIDE_##density)
 #include "../registry.def"

@@ -3,6 +3,7 @@
 //
 //   VNDF_SCALARS_<token>(S)  S(wo_x) S(wo_y) ... : one S(...) for each scalar
 //   VNDF_CALL_<token>        the call's arguments, made of variables named like the scalars
+//   VNDF_ARGUMENTS_<token>   the call's arguments as documented
 //   VNDF_RESULTS_<result>(S) S(wm_x, .x) ... : one S(scalar, member of the returned vector) for each result
 //   VNDF_TYPE_<result>       the type returned; <result>_PDF is what a sampler's _with_pdf form returns
 #ifndef VNDF_BATCH_SHAPES_H
@@ -18,48 +19,74 @@
 
 #define VNDF_SCALARS_WO_ALPHA_U(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS2(S, alpha) VNDF_SCALARS_U(S)
 #define VNDF_CALL_WO_ALPHA_U VNDF_CALL3(wo), VNDF_CALL2(alpha), VNDF_CALL_U
+#define VNDF_ARGUMENTS_WO_ALPHA_U "wo, alpha, u"
 
 #define VNDF_SCALARS_WO_ALPHA1_U(S) VNDF_SCALARS3(S, wo) S(alpha) VNDF_SCALARS_U(S)
 #define VNDF_CALL_WO_ALPHA1_U VNDF_CALL3(wo), alpha, VNDF_CALL_U
+#define VNDF_ARGUMENTS_WO_ALPHA1_U "wo, alpha, u"
 
 #define VNDF_SCALARS_WO_N_ALPHA1_U(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, n) S(alpha) VNDF_SCALARS_U(S)
 #define VNDF_CALL_WO_N_ALPHA1_U VNDF_CALL3(wo), VNDF_CALL3(n), alpha, VNDF_CALL_U
+#define VNDF_ARGUMENTS_WO_N_ALPHA1_U "wo, n, alpha, u"
 
 #define VNDF_SCALARS_ALPHA_U(S) VNDF_SCALARS2(S, alpha) VNDF_SCALARS_U(S)
 #define VNDF_CALL_ALPHA_U VNDF_CALL2(alpha), VNDF_CALL_U
+#define VNDF_ARGUMENTS_ALPHA_U "alpha, u"
 
 #define VNDF_SCALARS_WM_ALPHA(S) VNDF_SCALARS3(S, wm) VNDF_SCALARS2(S, alpha)
 #define VNDF_CALL_WM_ALPHA VNDF_CALL3(wm), VNDF_CALL2(alpha)
+#define VNDF_ARGUMENTS_WM_ALPHA "wm, alpha"
 
 #define VNDF_SCALARS_W_ALPHA(S) VNDF_SCALARS3(S, w) VNDF_SCALARS2(S, alpha)
 #define VNDF_CALL_W_ALPHA VNDF_CALL3(w), VNDF_CALL2(alpha)
+#define VNDF_ARGUMENTS_W_ALPHA "w, alpha"
 
 #define VNDF_SCALARS_SLOPE_ALPHA(S) VNDF_SCALARS2(S, slope) VNDF_SCALARS2(S, alpha)
 #define VNDF_CALL_SLOPE_ALPHA VNDF_CALL2(slope), VNDF_CALL2(alpha)
+#define VNDF_ARGUMENTS_SLOPE_ALPHA "slope, alpha"
 
 #define VNDF_SCALARS_WO_WI_ALPHA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wi) VNDF_SCALARS2(S, alpha)
 #define VNDF_CALL_WO_WI_ALPHA VNDF_CALL3(wo), VNDF_CALL3(wi), VNDF_CALL2(alpha)
+#define VNDF_ARGUMENTS_WO_WI_ALPHA "wo, wi, alpha"
 
 #define VNDF_SCALARS_WO_WM_ALPHA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm) VNDF_SCALARS2(S, alpha)
 #define VNDF_CALL_WO_WM_ALPHA VNDF_CALL3(wo), VNDF_CALL3(wm), VNDF_CALL2(alpha)
+#define VNDF_ARGUMENTS_WO_WM_ALPHA "wo, wm, alpha"
 
 #define VNDF_SCALARS_WO_N_WM_ALPHA1(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, n) VNDF_SCALARS3(S, wm) S(alpha)
 #define VNDF_CALL_WO_N_WM_ALPHA1 VNDF_CALL3(wo), VNDF_CALL3(n), VNDF_CALL3(wm), alpha
+#define VNDF_ARGUMENTS_WO_N_WM_ALPHA1 "wo, n, wm, alpha"
 
 #define VNDF_SCALARS_COS_THETA_X(S) S(cos_theta) S(x)
 #define VNDF_CALL_COS_THETA_X cos_theta, x
+#define VNDF_ARGUMENTS_COS_THETA_X "cos_theta, x"
 
 #define VNDF_SCALARS_COS_THETA_U1(S) S(cos_theta) S(u1)
 #define VNDF_CALL_COS_THETA_U1 cos_theta, u1
+#define VNDF_ARGUMENTS_COS_THETA_U1 "cos_theta, u1"
 
 #define VNDF_SCALARS_WO_WM(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm)
 #define VNDF_CALL_WO_WM VNDF_CALL3(wo), VNDF_CALL3(wm)
+#define VNDF_ARGUMENTS_WO_WM "wo, wm"
 
 #define VNDF_SCALARS_WO_WM_ETA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm) S(eta)
 #define VNDF_CALL_WO_WM_ETA VNDF_CALL3(wo), VNDF_CALL3(wm), eta
+#define VNDF_ARGUMENTS_WO_WM_ETA "wo, wm, eta"
 
 #define VNDF_SCALARS_WO_WI_ETA(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wi) S(eta)
 #define VNDF_CALL_WO_WI_ETA VNDF_CALL3(wo), VNDF_CALL3(wi), eta
+#define VNDF_ARGUMENTS_WO_WI_ETA "wo, wi, eta"
+
+// Of a lobe, set up on the spot.
+#define VNDF_SCALARS_CONIC2026_LOBE_U(S) VNDF_SCALARS_WO_ALPHA_U(S)
+#define VNDF_CALL_CONIC2026_LOBE_U vndf_ggx_conic2026_lobe(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL_U
+#define VNDF_ARGUMENTS_CONIC2026_LOBE_U "lobe, u"
+
+#define VNDF_SCALARS_CONIC2026_LOBE_WI(S) VNDF_SCALARS_WO_WI_ALPHA(S)
+#define VNDF_CALL_CONIC2026_LOBE_WI vndf_ggx_conic2026_lobe(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL3(wi)
+#define VNDF_ARGUMENTS_CONIC2026_LOBE_WI "lobe, wi"
+
+#define VNDF_ARGUMENTS_WO_ALPHA "wo, alpha"
 
 #define VNDF_RESULTS_VALUE(S) S(value, )
 #define VNDF_RESULTS_U(S) S(u1, .x) S(u2, .y)

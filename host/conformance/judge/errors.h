@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "conformance/inputs/points.h"
-#include "conformance/report/report.h"
+#include "conformance/judge/finding.h"
 #include "runtime/evaluator.h"
 
 namespace vndf::conformance {
@@ -16,6 +16,11 @@ using runtime::Real;
 // The unit roundoff of the tested type, in which errors are given.
 constexpr double epsilon(Real real) {
     return real == Real::f32 ? 0x1p-24 : 0x1p-53;
+}
+
+// What `strict` promises of the function.
+inline const Bounds& bounds_of(const Function& function, Real real) {
+    return real == Real::f32 ? function.float_bounds : function.double_bounds;
 }
 
 // How many times the bounds for strict a policy may err (rules of the registry; native: measured, never

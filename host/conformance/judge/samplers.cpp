@@ -5,10 +5,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "conformance/inputs/grids.h"
 #include "parallel.h"
 #include "conformance/inputs/rows.h"
-#include "conformance/judge/values.h"
 
 namespace vndf::conformance {
 namespace {
@@ -93,25 +91,15 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
 
 }  // namespace
 
-Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
-    if (function.kind != Kind::sampler) return value_errors(evaluator, function, table);
-    const Columns results = evaluate(evaluator, function, table);
+Errors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table) {
+    const Columns results = evaluate(evaluator, sampler, table);
     const Real real = evaluator.input_real();
     // A _with_pdf form returns the plain form's direction first.
-    const std::string plain = function.name.substr(0, function.name.find("_with_pdf"));
-    const Function& sampler = *find_function(plain);
-    MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
-                                         : map_errors<long double>(sampler, table, results, real);
+    const Function& plain = *find_function(sampler.plain);
+    MapErrors errors = real == Real::f32 ? map_errors<double>(plain, table, results, real)
+                                         : map_errors<long double>(plain, table, results, real);
     errors.front.merge(errors.back);
     return errors.front;
-}
-
-Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options) {
-    std::vector<Point> points = random_points(function, options.random_points, options.seed);
-    const std::vector<Point> hard = hard_points(function);
-    for (std::size_t i = 0; i < hard.size(); i += options.hard_stride) points.push_back(hard[i]);
-    for (const Point& point : guard_points(function)) points.push_back(point);
-    return tabulate(function, points, real == Real::f32 ? Rounding::to_float : Rounding::none);
 }
 
 std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function& sampler,
@@ -123,21 +111,18 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
                                                : map_errors<long double>(sampler, table, results, real);
     const double factor = slack(options.math), loose = options.math == Math::native ? 8 : 1;
     const bool wi = sampler.result == "WI", world = column(sampler, "n_x") >= 0;
-    const double front = real == Real::f32 ? sampler.p99_front * factor : 20 * factor;
-    const double back = real == Real::f32 ? sampler.p99_back * factor : 20 * factor;
-    // The core's maximum, as a multiple of its 99th percentile: half-vector maps lose most at silhouettes,
-    // the Beckmann maps where they switch branches.
-    const double maximum = sampler.ndf == Ndf::beckmann ? 64 : wi ? 32 : 16;
+    const SamplerBounds& bounds = bounds_of(sampler, real).sampler;
 
     std::vector<Finding> findings;
     const auto add = [&](const char* check, double figure, double limit, const char* unit, const Errors& e) {
         findings.push_back(make_finding(check, figure, limit, unit, e, sampler, table));
     };
     const char* const unit = "eps (1 + cond)";
-    add("pointwise, front, p99", errors.front.percentile(99), front, unit, errors.front);
-    if (errors.back.count()) add("pointwise, back, p99", errors.back.percentile(99), back, unit, errors.back);
-    add("pointwise, core, p99.9", errors.core.percentile(99.9), 2 * front, unit, errors.core);
-    add("pointwise, core, maximum", errors.core.max(), maximum * front, unit, errors.core);
+    add("pointwise, front, p99", errors.front.percentile(99), bounds.front * factor, unit, errors.front);
+    if (errors.back.count())
+        add("pointwise, back, p99", errors.back.percentile(99), bounds.back * factor, unit, errors.back);
+    add("pointwise, core, p99.9", errors.core.percentile(99.9), bounds.core * factor, unit, errors.core);
+    add("pointwise, core, maximum", errors.core.max(), bounds.core_max * factor, unit, errors.core);
     add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
     add("unit length", errors.length.max(), (wi ? 8 : 4) * loose, "eps", errors.length);
     if (errors.below.count())

@@ -16,9 +16,10 @@ enum class Unit { plain, exponent, condition };
 // Geometry, the marginals of the slopes (differences, roots) and the functions about a world-space normal
 // (whose products n . w are rounded) are judged by their condition.
 Unit unit_of(const Function& function) {
-    if (function.kind == Kind::geometry || column(function, "cos_theta") >= 0 || column(function, "n_x") >= 0)
+    if (function.kind == Kind::geometry || function.kind == Kind::inverse ||
+        column(function, "cos_theta") >= 0 || column(function, "n_x") >= 0)
         return Unit::condition;
-    return function.ndf == Ndf::beckmann ? Unit::exponent : Unit::plain;
+    return has_exponent(function.ndf) ? Unit::exponent : Unit::plain;
 }
 
 // The exponent of the Beckmann function: of its normal or slope, or of the angle of its direction.
@@ -47,14 +48,15 @@ double cancellation(const RowReader& reader, const double* row) {
 
 // Whether the reference's map takes its u back to the direction of this row, and that is the mirror image of wo. It is not
 // where wi is below the horizon, or where rounding has left so little of the half vector h that wo . h is not |h|^2 / 2.
-bool is_inverse(const RowReader& reader, const double* row, const double* u, reference::Precision precision) {
+bool is_inverse(const Function& function, const RowReader& reader, const double* row, const double* u,
+                reference::Precision precision) {
     const Direction o = reader.wo(row), d = reader.wi(row);
     const Direction h{o[0] + d[0], o[1] + d[1], o[2] + d[2]};
     if (!(std::abs(2 * dot(o, h) - dot(h, h)) < 0x1p-10 * dot(h, h))) return false;
     const std::array<double, 2> alpha = reader.alpha(row);
     const double in[7] = {o[0], o[1], o[2], alpha[0], alpha[1], u[0], u[1]};
     double back[4];
-    reference::find_evaluation<double>("vndf_ggx_sample_wi_conic2026")(in, back, precision);
+    reference::find_evaluation<double>(function.sampler)(in, back, precision);
     const Direction off{back[0] - d[0], back[1] - d[1], back[2] - d[2]};
     return length(off) < 0x1p-22;
 }
@@ -97,15 +99,15 @@ double error_at(const Judge& j, std::size_t i) {
     const double lost = cancellation(j.reader, row.data());
     if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
     if (at_edge(j.function, row.data(), j.real)) return skip;
-    if (j.function.result == "U") {
+    if (j.function.kind == Kind::inverse) {
         const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
-        if (!is_inverse(j.reader, row.data(), u, precision(j.real))) return skip;
+        if (!is_inverse(j.function, j.reader, row.data(), u, precision(j.real))) return skip;
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
     if (j.unit == Unit::condition) {
         const double condition = absolute_condition(
             j.function, reference::find_evaluation<double>(j.function.name), row.data(), precision(j.real));
-        if (j.function.result == "U" && !is_settled(condition)) return skip;
+        if (j.function.kind == Kind::inverse && !is_settled(condition)) return skip;
         return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
     }
     if (size < smallest) return std::numeric_limits<double>::infinity();
@@ -151,12 +153,10 @@ std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function&
             bad.add(std::isfinite(column[i]) && (!density || column[i] >= 0) ? 0 : 1, i);
 
     const char* const units[] = {"eps", "eps (1 + 2q)", "eps (1 + cond)"};
-    const double limit =
-        (real == Real::f32 || function.result == "U" ? function.bound : std::max(function.bound, 20.0)) *
-        slack(options.math);
+    const double limit = bounds_of(function, real).error * slack(options.math);
     // Where rounding has erased the half vector, the differences that measure the condition of an inverse lie beyond the
     // clamps of u and show none of it: its few worst rows say nothing.
-    const bool inverse = function.result == "U";
+    const bool inverse = function.kind == Kind::inverse;
     return {make_finding(inverse ? "pointwise, p99" : "pointwise, maximum",
                          inverse ? errors.percentile(99) : errors.max(), limit,
                          units[static_cast<int>(judge.unit)], errors, function, table),

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "conformance/judge/samplers.h"
+#include "conformance/inputs/pointwise_table.h"
+#include "conformance/judge/errors.h"
 
 namespace vndf::conformance {
 

@@ -36,7 +36,7 @@ Table density_inputs(const Function& sampler, const Function& density, const Tab
 
 // 1 + 2q for the exponent q of a Beckmann density at the exact direction; 1 for GGX.
 double exponent_factor(const Function& sampler, const RowReader& reader, const double* row, const double* d) {
-    if (sampler.ndf != Ndf::beckmann) return 1;
+    if (!has_exponent(sampler.ndf)) return 1;
     Direction m{d[0], d[1], d[2]};
     const Direction wo = reader.wo(row);
     if (sampler.result == "WI") m = {d[0] + wo[0], d[1] + wo[1], d[2] + wo[2]};
@@ -133,7 +133,7 @@ PdfErrors pdf_errors(const Inputs& s) {
 std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Function& with_pdf,
                                     const PointwiseOptions& options) {
     const Real real = evaluator.input_real();
-    const Function& plain = *find_function(with_pdf.name.substr(0, with_pdf.name.rfind("_with_pdf")));
+    const Function& plain = *find_function(with_pdf.plain);
     const Function& density = *find_function(with_pdf.density);
     // Fewer points than for the plain form: each takes some thirty evaluations of the reference.
     PointwiseOptions fewer = options;
@@ -147,24 +147,24 @@ std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Functio
     const PdfErrors errors = real == Real::f32 ? pdf_errors<double>(inputs) : pdf_errors<long double>(inputs);
 
     const double factor = slack(options.math);
-    const bool beckmann = with_pdf.ndf == Ndf::beckmann;
-    const char* const unit = beckmann ? "eps max(1 + cond, 1 + 2q)" : "eps (1 + cond)";
-    const double maximum = beckmann ? 512 : 128;  // maps that switch branches lose most near the switch
+    const char* const unit = has_exponent(with_pdf.ndf) ? "eps max(1 + cond, 1 + 2q)" : "eps (1 + cond)";
+    const SamplerBounds& bounds = bounds_of(with_pdf, real).sampler;
     std::vector<Finding> findings;
     const auto add = [&](const char* check, double figure, double limit, const char* unit, const Errors& e) {
         findings.push_back(make_finding(check, figure, limit, unit, e, with_pdf, table));
     };
     add("same direction as the plain form", errors.direction.max(), 0, "different", errors.direction);
-    add("density of the exact sample, p99", errors.all.percentile(99), 16 * factor, unit, errors.all);
-    add("density of the exact sample, core, maximum", errors.core.max(), maximum * factor, unit, errors.core);
+    add("density of the exact sample, p99", errors.all.percentile(99), bounds.pdf * factor, unit, errors.all);
+    add("density of the exact sample, core, maximum", errors.core.max(), bounds.pdf_core_max * factor, unit,
+        errors.core);
     add("density finite and not negative", errors.sign.max(), 0, "rows", errors.sign);
     if (errors.outside.count())
         add("density 0 outside the domain", errors.outside.max(), 0, "rows", errors.outside);
     if (errors.lost.count())
         add("separate density positive at the samples", errors.lost.max(), 0, "rows", errors.lost);
     if (errors.agreement.count())
-        add("agrees with the separate density, p99", errors.agreement.percentile(99), 32 * factor,
-            "eps (1 + cond)(1 + cond of the map)", errors.agreement);
+        add("agrees with the separate density, p99", errors.agreement.percentile(99),
+            bounds.agreement * factor, "eps (1 + cond)(1 + cond of the map)", errors.agreement);
     return findings;
 }
 

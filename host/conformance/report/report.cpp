@@ -9,18 +9,6 @@
 
 namespace vndf::conformance {
 
-bool Finding::passed() const {
-    return biased ? std::abs(figure - limit) <= 0.1 * limit : severity() <= 1;
-}
-
-double Finding::severity() const {
-    constexpr double beyond = std::numeric_limits<double>::infinity();
-    if (std::isnan(figure)) return beyond;
-    if (is_p) return std::log(std::max(figure, 1e-300)) / std::log(limit);
-    if (figure == 0) return 0;
-    return limit > 0 ? figure / limit : beyond;
-}
-
 Verdict FunctionReport::verdict() const {
     const auto any = [&](auto predicate) { return std::any_of(findings.begin(), findings.end(), predicate); };
     // No finding is no evidence.

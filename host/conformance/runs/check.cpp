@@ -12,7 +12,7 @@
 #include "conformance/judge/known_bias.h"
 #include "conformance/judge/lobes.h"
 #include "parallel.h"
-#include "conformance/judge/samplers.h"
+#include "conformance/judge/pointwise.h"
 #include "conformance/judge/values.h"
 
 namespace vndf::conformance {
@@ -156,19 +156,16 @@ class Run {
     }
 
     std::vector<Finding> findings(const Function& function) {
-        if (function.kind == Kind::sampler && function.with_pdf)
-            return check_with_pdf(evaluator_, function, pointwise_);
-        if (function.kind == Kind::sampler) {
-            std::vector<Finding> all = check_sampler(evaluator_, function, pointwise_);
-            for (Finding& finding : measure_bias(evaluator_, function)) all.push_back(std::move(finding));
+        std::vector<Finding> all = check_pointwise(evaluator_, function, pointwise_);
+        const auto add = [&](std::vector<Finding> more) {
+            std::move(more.begin(), more.end(), std::back_inserter(all));
+        };
+        if (function.kind == Kind::density) add(check_normalisation(evaluator_, function, pointwise_));
+        if (is_sampled(function)) {
+            add(measure_bias(evaluator_, function));
             evaluator_.input_real() == Real::f32 ? statistics<float>(function, all)
                                                  : statistics<double>(function, all);
-            return all;
         }
-        std::vector<Finding> all = check_values(evaluator_, function, pointwise_);
-        if (function.kind == Kind::density)
-            for (Finding& finding : check_normalisation(evaluator_, function, pointwise_))
-                all.push_back(std::move(finding));
         return all;
     }
 
@@ -227,7 +224,7 @@ std::vector<std::string> needed(const std::vector<const Function*>& selected) {
     for (const Function* function : selected) {
         names.insert(function->name);
         if (!function->with_pdf) continue;
-        names.insert(function->name.substr(0, function->name.rfind("_with_pdf")));
+        names.insert(function->plain);
         names.insert(function->density);
     }
     return {names.begin(), names.end()};

@@ -207,9 +207,7 @@ std::vector<const Function*> samplers_of(const std::vector<const Function*>& sel
     std::vector<const Function*> samplers;
     for (const Function* function : selected) {
         if (function->kind != Kind::sampler) continue;
-        const Function* plain =
-            function->with_pdf ? find_function(function->name.substr(0, function->name.rfind("_with_pdf")))
-                               : function;
+        const Function* plain = find_function(function->plain);
         if (std::find(samplers.begin(), samplers.end(), plain) == samplers.end()) samplers.push_back(plain);
     }
     return samplers;

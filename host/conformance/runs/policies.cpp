@@ -9,8 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "conformance/judge/samplers.h"
-#include "conformance/judge/values.h"
+#include "conformance/judge/pointwise.h"
 
 namespace vndf::conformance {
 namespace {
@@ -38,13 +37,6 @@ std::size_t count_rows(std::size_t rows, std::size_t columns, Predicate predicat
         count += any;
     }
     return count;
-}
-
-std::vector<Finding> pointwise_findings(runtime::Evaluator& evaluator, const Function& function,
-                                        const PointwiseOptions& options) {
-    if (function.kind != Kind::sampler) return check_values(evaluator, function, options);
-    return function.with_pdf ? check_with_pdf(evaluator, function, options)
-                             : check_sampler(evaluator, function, options);
 }
 
 // The part of the inputs whose errors a finding tells; empty for findings about anything else.
@@ -93,7 +85,7 @@ Behaviour behaviour_of(runtime::Evaluator& evaluator, const Function& function,
     const Table table = pointwise_table(function, evaluator.input_real(), options);
     const Columns results = evaluate(evaluator, function, table);
     if (strict.empty()) strict = results;
-    Behaviour behaviour{&function, pointwise_findings(evaluator, function, options), table.rows()};
+    Behaviour behaviour{&function, check_pointwise(evaluator, function, options), table.rows()};
     behaviour.non_finite = count_rows(table.rows(), results.size(), [&](std::size_t c, std::size_t i) {
         return non_finite(results[c][i]);
     });

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "conformance/runs/check.h"
-#include "conformance/judge/samplers.h"
+#include "conformance/inputs/pointwise_table.h"
 
 namespace vndf::conformance {
 

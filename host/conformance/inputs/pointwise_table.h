@@ -1,0 +1,25 @@
+// The inputs of the pointwise comparison.
+#pragma once
+
+#include <cstdint>
+
+#include "conformance/inputs/points.h"
+#include "runtime/evaluator.h"
+
+namespace vndf::conformance {
+
+using runtime::Math;
+using runtime::Real;
+
+struct PointwiseOptions {
+    Math math = Math::strict;
+    std::uint64_t seed = 1;
+    std::size_t random_points = std::size_t{1} << 16;
+    std::size_t hard_stride = 1;  // each hard_stride-th of the hard points
+    bool quick = false;           // the lobes of a quick run
+};
+
+// Random, hard and guard points as a table.
+Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);
+
+}  // namespace vndf::conformance

@@ -1,0 +1,27 @@
+// One judged figure of a function.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace vndf::conformance {
+
+// "pointwise, front" 1.2 of 2.
+struct Finding {
+    std::string check;      // "chi2 of the pivots", "pointwise, front", ...
+    double figure = 0;      // worst over the inputs
+    double limit = 0;       // passes if figure <= limit (p-values: figure >= limit)
+    std::string unit;       // "eps (1 + cond)", "p", ...
+    bool is_p = false;      // a p-value: small is bad
+    bool biased = false;    // a documented bias, measured: passes within 10 % of `limit`, what is documented
+    std::string detail;     // further figures: "p50 0.4, max 31"
+    std::string worst;      // worst input row in hex floats, "wo_x=0x1.8p-1 ..."
+    std::size_t count = 0;  // inputs or tests behind the figure
+    double p50 = 0, p99 = 0, max = 0;  // of the errors behind a pointwise figure
+
+    bool passed() const;
+    // How near to the limit: above 1 is a failure. Comparable between kinds of figures.
+    double severity() const;
+};
+
+}  // namespace vndf::conformance
