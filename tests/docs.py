@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Makes what the documentation takes from elsewhere, or checks that it is so.
+
+    python3 tests/docs.py BUILD            rewrites it
+    python3 tests/docs.py --check BUILD    fails, with a line for each difference, if that would change anything
+
+BUILD holds the command `clvndf`. In every README.md:
+
+    <!-- file: PATH -->     the code block that follows shows the file
+    <!-- table: NAME -->    what follows, up to <!-- end -->, is that table
+    ```console              lines that begin with "$ " are commands; their output follows
+
+In the headers, a line `// Accuracy:` above a function of the registry states its bounds.
+"""
+import functools
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "bench/results/pocl-3.1.json"
+
+
+# --- The registry ---
+
+@functools.cache
+def registry(build):
+    return json.loads(subprocess.run([build / "clvndf", "list", "--json"], check=True, stdout=subprocess.PIPE).stdout)
+
+
+def number(value):
+    return "" if value is None else f"{value:g}"
+
+
+def table(head, rows):
+    return "".join("| " + " | ".join(cells) + " |\n" for cells in [head, ["---"] * len(head), *rows])
+
+
+def call(function):
+    return f"`{function['name']}({function['signature']})`"
+
+
+def samplers(build):
+    for f in registry(build):
+        if f["kind"] != "sampler" or f["name"].endswith("_with_pdf"):
+            continue
+        error = ["–".join(filter(None, [number(bounds["front"])])) + ", " + (number(bounds["back"]) or "–")
+                 for bounds in (f["bounds"]["float"], f["bounds"]["double"])]
+        yield call(f), f"`{f['density']}`", f["method"], f["domain"], *error, f["source"]
+
+
+def lobes(build):
+    for f in registry(build):
+        if f["kind"] == "lobe":
+            yield call(f), f"`{f['type']}`", f["source"]
+
+
+def others(build):
+    for f in registry(build):
+        if f["kind"] not in ("sampler", "lobe"):
+            of = f["kind"] + (f", {f['support']}" if "support" in f else "")
+            yield call(f), of, *(number(f["bounds"][real]["error"]) for real in ("float", "double")), f["source"]
+
+
+def accuracy(function):
+    """The sentence of a header, without its full stop."""
+    single, double = function["bounds"]["float"], function["bounds"]["double"]
+    if function["kind"] == "sampler":
+        what = "published" if function["method"] == "approximate" else "exact"
+        back = [f", {number(b['back'])} behind the surface" if b["back"] else "" for b in (single, double)]
+        return (f"angle to the {what} map, 99th percentile: {number(single['front'])} eps (1 + condition number)"
+                f"{back[0]}; double {number(double['front'])}{back[1].replace(' behind the surface', '')}")
+    percentile = ", 99th percentile" if function["kind"] == "inverse" else ""
+    return f"{number(single['error'])} {function['unit']}{percentile}; double {number(double['error'])}"
+
+
+def with_accuracy(text, build):
+    """The header with the sentence above each registered function, and those that have none."""
+    of = {f["name"]: accuracy(f) for f in registry(build) if "bounds" in f}
+    lines, missing = text.split("\n"), []
+    for i, line in enumerate(lines):
+        found = re.match(r"VNDF_FN \w+ (vndf_(?!impl_)\w+)\(", line)
+        if not found or found[1] not in of or found[1].endswith("_with_pdf"):
+            continue
+        begin = i
+        while begin > 0 and lines[begin - 1].startswith("//"):
+            begin -= 1
+        at = [k for k in range(begin, i) if lines[k].startswith("// Accuracy:")]
+        if len(at) != 1:
+            missing.append(found[1])
+            continue
+        lines[at[0]] = f"// Accuracy: {of[found[1]]}."
+    return "\n".join(lines), missing
+
+
+# --- The committed run of the benchmark ---
+
+@functools.cache
+def bench():
+    sys.path.insert(0, str(ROOT / "bench/report"))
+    import report  # needs matplotlib
+    return report, report.Bench(RESULTS)
+
+
+def ns(value):
+    return "" if value is None else f"{value:.0f}" if value >= 99.95 else f"{value:.1f}"
+
+
+def times(forms):
+    _, run = bench()
+    for sampler in run.samplers():
+        errors = [run.counter(f"{sampler}/{policy}/float/stream", "err_p99") for policy in ("strict", "published")]
+        yield (f"`{sampler.removeprefix('vndf_')}`", *(ns(run.ns(sampler, *form)) for form in forms),
+               *("" if e is None else f"{e:.2g}" for e in errors))
+
+
+def gains():
+    report, run = bench()
+    lights = ("white light", "smooth light", report.SMALL, "smooth light, Sobol")
+    for alpha in ((0.1, 0.1), (0.5, 0.5), (1, 1), (2, 2), (0.2, 0.8), (0.3, 0.9), (0.05, 1)):
+        at = [lobe for cosine in (0.9, 0.5, 0.2) for lobe in run.lobes
+              if (lobe["alpha_x"], lobe["alpha_y"], lobe["cos_theta"]) == (*alpha, cosine)]
+        conic = [lobe for lobe in at if lobe["sampler"].endswith("conic2026")]
+        lost = [lobe["rejected"] for lobe in at if lobe["sampler"] == report.BOUNDED]
+        yield (f"{alpha[0]:g}, {alpha[1]:g}", ", ".join(f"{100 * part:.0f} %" for part in lost),
+               *(", ".join(f"{report.gain(run, lobe, light, 100):.{2 if light == report.SMALL else 1}f}" for lobe in conic)
+                 for light in lights))
+
+
+def copies():
+    _, run = bench()
+    for name in ("copy_40B/stream", "copy_48B/stream"):
+        if name in run.best:
+            yield f"`{name.split('/')[0]}`", f"{run.best[name]['ns_per_sample']:.2f}"
+
+
+STREAM, COMPUTE, PUBLISHED = ("strict/float", "stream"), ("strict/float", "compute"), ("published/float", "stream")
+TABLES = {
+    "samplers": lambda build: table(["sampler", "density", "method", "domain", "error", "in double", "source"],
+                                    samplers(build)),
+    "lobes": lambda build: table(["function", "returns", "source"], lobes(build)),
+    "functions": lambda build: table(["function", "kind, support", "error", "in double", "source"], others(build)),
+    "results": lambda build: table(["sampler", "streaming", "one lobe", "published", "error", "error, published"],
+                                   times((STREAM, COMPUTE, PUBLISHED))),
+    "times": lambda build: table(
+        ["sampler", "strict", "strict, one lobe", "builtin", "strict double", "C++", "published", "p99", "p99, published"],
+        times((STREAM, COMPUTE, ("builtin/float", "stream"), ("strict/double", "stream"), ("cpp/float", "stream"), PUBLISHED))),
+    "copies": lambda build: table(["copy", "ns"], copies()),
+    "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
+                                  "small light", "smooth light, Sobol"], gains()),
+}
+
+
+# --- Pages ---
+
+def with_tables(text, build):
+    def replacement(found):
+        if found[1] not in TABLES:
+            sys.exit(f"no table {found[1]!r}; there are {', '.join(TABLES)}")
+        return f"<!-- table: {found[1]} -->\n{TABLES[found[1]](build)}<!-- end -->"
+    return re.sub(r"<!-- table: (\w+) -->\n.*?<!-- end -->", replacement, text, flags=re.S)
+
+
+def with_files(text):
+    return re.sub(r"(<!-- file: (\S+) -->\n```\w*\n).*?(```)", lambda m: m[1] + (ROOT / m[2]).read_text("utf-8") + m[3], text,
+                  flags=re.S)
+
+
+def with_outputs(text, build):
+    environment = {**os.environ, "PATH": f"{build}{os.pathsep}{os.environ['PATH']}"}
+
+    def session(found):
+        result = ""
+        for line in re.findall(r"^\$ (.*)$", found[1], flags=re.M):
+            run = subprocess.run(["sh", "-c", line], cwd=ROOT, env=environment, stdout=subprocess.PIPE,
+                                 stderr=subprocess.STDOUT, text=True)
+            result += f"$ {line}\n{run.stdout}"
+        return f"```console\n{result}```"
+    return re.sub(r"```console\n(.*?)```", session, text, flags=re.S)
+
+
+def wanted(path, build):
+    """What a file should hold, and what is wrong with it beside that."""
+    text = path.read_text("utf-8")
+    if path.suffix == ".md":
+        return with_outputs(with_files(with_tables(text, build)), build), []
+    text, missing = with_accuracy(text, build)
+    return text, [f"{path.relative_to(ROOT)}: {name} has no line '// Accuracy:'" for name in missing]
+
+
+def main():
+    check = sys.argv[1:2] == ["--check"]
+    if len(sys.argv) != 2 + check:
+        sys.exit(__doc__)
+    build = pathlib.Path(sys.argv[-1]).resolve()
+    pages = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
+    problems = []
+    for path in [*(p for p in pages if not p.parent.name.startswith("build")), *sorted(ROOT.glob("kernels/vndf/*.h"))]:
+        text, wrong = wanted(path, build)
+        before = path.read_text("utf-8")
+        problems += wrong
+        if text == before:
+            continue
+        if check:
+            old, new = before.split("\n"), text.split("\n")
+            at = next((i for i, (a, b) in enumerate(zip(old, new)) if a != b), min(len(old), len(new)))
+            problems.append(f"{path.relative_to(ROOT)}:{at + 1}: {''.join(old[at:at + 1])!r} should be {''.join(new[at:at + 1])!r}")
+        else:
+            path.write_text(text, "utf-8")
+    if problems:
+        sys.exit("\n".join(problems))
+
+
+if __name__ == "__main__":
+    main()
