@@ -12,6 +12,7 @@ namespace {
 constexpr Ndf GGX = Ndf::ggx, BECKMANN = Ndf::beckmann, ANY = Ndf::any;
 constexpr Method EXACT = Method::exact, APPROXIMATE = Method::approximate;
 constexpr Domain SPHERE = Domain::sphere, UPPER = Domain::upper;
+constexpr double NONE = 0;
 constexpr Kind TERM = Kind::term, DENSITY = Kind::density, GEOMETRY = Kind::geometry;
 
 Function with_pdf(Function sampler) {

@@ -31,7 +31,7 @@ struct Function {
     Method method = Method::exact;
     Domain domain = Domain::sphere;
     double p99_front = 0;  // units of 2^-24 (1 + condition number)
-    double p99_back = 0;
+    double p99_back = 0;   // 0: nothing to bound, no wo is back-facing
 
     // Other kinds: maximum relative error in units of 2^-24.
     double bound = 0;

@@ -69,7 +69,7 @@ std::string sampler_table() {
         if (f.kind != Kind::sampler || f.with_pdf) continue;
         table += "| " + arguments(f) + " | `" + f.density + "` | " + std::string(to_string(f.method)) +
                  " | " + std::string(to_string(f.domain)) + " | " + number(f.p99_front) + ", " +
-                 number(f.p99_back) + " | " + f.source + " |\n";
+                 (f.p99_back > 0 ? number(f.p99_back) : "-") + " | " + f.source + " |\n";
     }
     return table;
 }

@@ -20,7 +20,7 @@ nlohmann::ordered_json to_json(const Function& f) {
         json["method"] = to_string(f.method);
         json["domain"] = to_string(f.domain);
         json["p99_front"] = f.p99_front;
-        json["p99_back"] = f.p99_back;
+        json["p99_back"] = f.p99_back > 0 ? nlohmann::ordered_json(f.p99_back) : nullptr;
     } else {
         json["bound"] = f.bound;
     }
