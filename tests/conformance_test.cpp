@@ -9,8 +9,11 @@
 #include "conformance/check.h"
 #include "conformance/grids.h"
 #include "conformance/lobes.h"
+#include "conformance/samplers.h"
+#include "conformance/values.h"
 #include "support/catch.h"
 #include "support/command.h"
+#include "support/skip.h"
 
 using namespace vndf;
 using namespace vndf::conformance;
@@ -51,10 +54,7 @@ TEST_CASE("every function conforms in builtin float") {
 }
 
 TEST_CASE("every function conforms in strict double") {
-    if (!runtime::choose_device().device.fp64) {
-        WARN("the device has no fp64");
-        return;
-    }
+    if (!runtime::choose_device().device.fp64) VNDF_SKIP("the device has no fp64");
     require_conformance(quick_check(runtime::Math::strict, runtime::Real::f64));
 }
 
@@ -77,6 +77,30 @@ TEST_CASE("every kind of check is applied to every function that it fits") {
             for (const char* kind : {"pointwise", "finite", "unit length", "chi2 of the pivots",
                                      "KS of pivot 1", "KS of pivot 2", "chi2 of the directions", "means"})
                 CHECK(kinds.count(kind));
+        }
+    }
+}
+
+TEST_CASE("check asserts every number of the registry") {
+    runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);
+    PointwiseOptions few;
+    few.random_points = 512, few.hard_stride = 211;
+    for (const Function& f : functions()) {
+        if (f.with_pdf) continue;  // the numbers are those of the plain form
+        // The function's own findings fail as soon as one number is 2^-20 of what it is.
+        for (double Function::*number : {&Function::p99_front, &Function::p99_back, &Function::bound}) {
+            if (!(f.*number > 0)) continue;
+            CAPTURE(f.name, f.p99_front, f.p99_back, f.bound, f.*number);
+            Function strict = f;
+            strict.*number *= 0x1p-20;
+            const auto passes = [&](const Function& g) {
+                const auto findings =
+                    g.kind == Kind::sampler ? check_sampler(host, g, few) : check_values(host, g, few);
+                return std::all_of(findings.begin(), findings.end(),
+                                   [](const Finding& finding) { return finding.passed(); });
+            };
+            CHECK(passes(f));
+            CHECK_FALSE(passes(strict));
         }
     }
 }
