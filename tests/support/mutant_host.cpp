@@ -1,0 +1,70 @@
+// The pointwise part of `clvndf check` on the host build, for tests/random_mutants.py, which compiles
+// host/runtime/host_build.cpp with a changed header and links it in here.
+//
+//   mutant_host float|double                   the digests (digest.h), as `clvndf check --digest --quick` prints them
+//   mutant_host float|double DIGESTS POINTS STRIDE
+//
+// The second form prints "changed NAME" for each function whose digest is not the one in the file DIGESTS, then checks
+// these with POINTS random points and every STRIDEth hard one until one fails: "caught NAME: CHECK ...".
+// Exit status 0, whatever it finds.
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "conformance/digest.h"
+#include "conformance/samplers.h"
+#include "conformance/values.h"
+
+using namespace vndf;
+
+namespace {
+
+std::vector<conformance::Finding> findings(runtime::Evaluator& host, const Function& f,
+                                           const conformance::PointwiseOptions& options) {
+    if (f.kind != Kind::sampler) return conformance::check_values(host, f, options);
+    return f.with_pdf ? conformance::check_with_pdf(host, f, options)
+                      : conformance::check_sampler(host, f, options);
+}
+
+// Whether the function is caught.
+bool judge(runtime::Evaluator& host, const Function& f, const conformance::PointwiseOptions& options) {
+    for (const conformance::Finding& finding : findings(host, f, options)) {
+        if (finding.passed()) continue;
+        fmt::print("caught {}: {}: {:.3g} of {:.3g} {} at {}\n", f.name, finding.check, finding.figure,
+                   finding.limit, finding.unit, finding.worst);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const runtime::Real real = std::string(argv[1]) == "double" ? runtime::Real::f64 : runtime::Real::f32;
+    runtime::HostEvaluator host(runtime::Math::strict, real);
+    conformance::BitsOptions bits;
+    bits.rows = conformance::quick_digest_rows;
+    std::vector<const Function*> all;
+    for (const Function& function : functions()) all.push_back(&function);
+    const auto digests = conformance::digests(host, all, bits);
+    if (argc < 5) {
+        fmt::print("{}", conformance::format_digests(digests));
+        return 0;
+    }
+    std::ifstream file(argv[2]);
+    std::set<std::string> known;
+    for (std::string line; std::getline(file, line);) known.insert(line + "\n");
+    std::vector<const Function*> changed;
+    for (const auto& digest : digests)
+        if (!known.count(conformance::format_digests({digest}))) changed.push_back(digest.function);
+    for (const Function* f : changed) fmt::print("changed {}\n", f->name);
+    conformance::PointwiseOptions options;
+    options.random_points = std::strtoul(argv[3], nullptr, 10);
+    options.hard_stride = std::strtoul(argv[4], nullptr, 10);
+    for (const Function* f : changed)
+        if (judge(host, *f, options)) break;
+    return 0;
+}
