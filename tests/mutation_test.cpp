@@ -26,15 +26,16 @@ std::vector<runtime::Substitution> substitutions() {
 
 // The check of these functions with one of the substitutions switched in.
 Report check_with(const std::vector<runtime::Substitution>& substitutions, int id,
-                  const std::vector<const Function*>& selected, runtime::Real real, bool quick) {
+                  const std::vector<const Function*>& selected, runtime::Real real, bool quick,
+                  runtime::Math math = runtime::Math::strict) {
     runtime::ProgramOptions program;
     program.functions = needed(selected);
     program.substitutions = substitutions;
     program.mutant = id;
-    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict, real, program);
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, math, real, program);
     CheckOptions options;
     options.quick = quick;
-    return check(evaluator, runtime::Math::strict, selected, options);
+    return check(evaluator, math, selected, options);
 }
 
 // The quick check of the mutant's functions with the mistake switched in; 0: none.
@@ -122,8 +123,9 @@ TEST_CASE("a mutant from outside", "[.outside]") {
     const std::vector<runtime::Substitution> mutant{
         {"kernels/vndf/" + task["file"].get<std::string>(), task["old_text"], task["new_text"], 1}};
     const runtime::Real real = task["real"] == "double" ? runtime::Real::f64 : runtime::Real::f32;
+    const runtime::Math math = task["math"] == "builtin" ? runtime::Math::builtin : runtime::Math::strict;
     for (const std::string name : task["functions"]) {
-        const Report report = check_with(mutant, 1, {find_function(name)}, real, task["quick"]);
+        const Report report = check_with(mutant, 1, {find_function(name)}, real, task["quick"], math);
         for (const std::string& check : failed_checks(report)) fmt::print("caught {}: {}\n", name, check);
         if (!report.passed()) return;
     }

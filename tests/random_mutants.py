@@ -12,8 +12,9 @@ A mutant changes one thing: + - * / < <= > >= && || ! min max sin cos, a number 
 its sign, the sign of an operand, the choices of ?:, an x for a y. It is judged in steps, each only if the one before has
 not caught it:
 
-  1. the host build of the headers, float, then double where float keeps its bits: the functions whose results change
-     over 2^12 inputs (none: "same bits"), and few points of `clvndf check`'s pointwise comparison for them;
+  1. the host build of the headers: the functions whose results change over 2^12 inputs, in strict float, else in strict
+     double, else in builtin float, else over 2^15 inputs of each (none: "same bits"), and few points of `clvndf check`'s
+     pointwise comparison for them;
   2. all points of it;
   3. the quick check of these functions on the device, with its statistics (clvndf_tests "a mutant from outside"); with
      --full the full one as well.
@@ -167,6 +168,10 @@ def unique_context(text, begin, end):
     return start
 
 
+class BuildsNot(Exception):
+    pass
+
+
 class Bench:
     """The changed headers, compiled and judged."""
 
@@ -179,21 +184,25 @@ class Bench:
         for name in ("host_build.cpp", "host_build.h"):
             shutil.copy(project / "host/runtime" / name, self.tree / "host/runtime")
         self.main = work / "mutant_host.o"
-        self.compile(project / "tests/support/mutant_host.cpp", self.main, "float", project)
-        for real in ("float", "double"):
-            self.link(real)
-            self.digests(real).write_text(self.output([work / "mutant_host", real]))
+        self.compile(project / "tests/support/mutant_host.cpp", self.main, "float", "strict")
+        for real, math, rows in self.builds:
+            self.link(real, math)
+            self.digests(real, math, rows).write_text(self.output([work / "mutant_host", real, math, rows]))
 
-    def digests(self, real):
-        return self.work / f"digests_{real}.txt"
+    builds = [(real, math, rows) for rows in ("4096", "32768")
+              for real, math in (("float", "strict"), ("double", "strict"), ("float", "builtin"))]
 
-    def compile(self, source, target, real, root):
-        subprocess.run(["g++", "-std=c++20", "-O0", "-ffp-contract=off", "-w", f"-DVNDF_REAL={real}", "-DVNDF_MATH=strict",
-                        f"-I{project}", f"-I{project}/host", "-c", source, "-o", target], check=True, cwd=root,
-                       stderr=subprocess.DEVNULL)
+    def digests(self, *build):
+        return self.work / f"digests_{'_'.join(build)}.txt"
 
-    def link(self, real):
-        self.compile(self.tree / "host/runtime/host_build.cpp", self.work / "host_build.o", real, self.tree)
+    def compile(self, source, target, real, math):
+        command = ["g++", "-std=c++20", "-O0", "-ffp-contract=off", "-w", f"-DVNDF_REAL={real}", f"-DVNDF_MATH={math}",
+                   f"-I{project}", f"-I{project}/host", "-c", source, "-o", target]
+        if subprocess.run(command, stderr=subprocess.DEVNULL).returncode:
+            raise BuildsNot
+
+    def link(self, real, math):
+        self.compile(self.tree / "host/runtime/host_build.cpp", self.work / "host_build.o", real, math)
         subprocess.run(["g++", self.main, self.work / "host_build.o", self.build / "host/libclvndf_host.a",
                         self.build / "host/reference/libclvndf_reference.a", "-lfmt", "-lOpenCL", "-pthread", "-o",
                         self.work / "mutant_host"], check=True)
@@ -202,20 +211,20 @@ class Bench:
     def output(command, **more):
         return subprocess.run(command, check=True, capture_output=True, text=True, timeout=1800, **more).stdout
 
-    def on_host(self, real, points, stride):
-        out = self.output([self.work / "mutant_host", real, self.digests(real), str(points), str(stride)])
+    def on_host(self, build, points, stride):
+        out = self.output([self.work / "mutant_host", *build, self.digests(*build), str(points), str(stride)])
         lines = out.splitlines()
         caught = [line[7:] for line in lines if line.startswith("caught ")]
         return [line[8:] for line in lines if line.startswith("changed ")], caught[0] if caught else None
 
-    def on_device(self, m, text, functions, real, quick):
+    def on_device(self, m, text, functions, real, math, quick):
         start = unique_context(text, m["begin"], m["end"])
         if start is None:
             return None
         task = self.work / "task.json"
         task.write_text(json.dumps({
             "file": m["file"], "old_text": text[start:m["end"]], "new_text": text[start:m["begin"]] + m["new"],
-            "functions": functions, "real": real, "quick": quick}))
+            "functions": functions, "real": real, "math": math, "quick": quick}))
         cache = self.work / "pocl_cache"
         shutil.rmtree(cache, ignore_errors=True)
         cache.mkdir()
@@ -231,31 +240,32 @@ class Bench:
         target.write_text(changed_text(text, m))
         try:
             return self.verdict(m, text, full)
-        except subprocess.CalledProcessError:
+        except BuildsNot:
             return {"verdict": "builds not"}
-        except subprocess.TimeoutExpired:
-            return {"verdict": "caught", "by": "no end"}
+        except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as ended:
+            return {"verdict": "caught", "by": f"its end: {ended}"}
         finally:
             target.write_text(text)
 
     def verdict(self, m, text, full):
-        for real in ("float", "double"):
-            self.link(real)
-            changed, caught = self.on_host(real, 1024, 97)
+        for build in self.builds:
+            real, math, rows = build
+            self.link(real, math)
+            changed, caught = self.on_host(build, 1024, 97)
             if caught:
-                return {"verdict": "caught", "by": f"{real}, few points: {caught}"}
+                return {"verdict": "caught", "by": f"{math} {real}, few points: {caught}"}
             if changed:
                 break
         else:
             return {"verdict": "same bits"}
-        _, caught = self.on_host(real, 65536, 1)
+        _, caught = self.on_host(build, 65536, 1)
         if caught:
-            return {"verdict": "caught", "by": f"{real}, pointwise: {caught}"}
+            return {"verdict": "caught", "by": f"{math} {real}, pointwise: {caught}"}
         for quick in [True, False] if full else [True]:
-            caught = self.on_device(m, text, changed, real, quick)
+            caught = self.on_device(m, text, changed, real, math, quick)
             if caught:
-                return {"verdict": "caught", "by": f"{real}, {'quick' if quick else 'full'} check: {caught}"}
-        return {"verdict": "survived", "real": real, "changed": changed}
+                return {"verdict": "caught", "by": f"{math} {real}, {'quick' if quick else 'full'} check: {caught}"}
+        return {"verdict": "survived", "build": f"{math} {real}", "changed": changed}
 
 
 def main():
@@ -313,7 +323,7 @@ def main():
             result = done[m["index"]]
             counts[result["verdict"]] = counts.get(result["verdict"], 0) + 1
             if result["verdict"] in ("survived", "same bits"):
-                print(f"\n#{m['index']} {m['file']} ({m['kind']}): {result['verdict']} {result.get('real', '')}\n"
+                print(f"\n#{m['index']} {m['file']} ({m['kind']}): {result['verdict']} {result.get('build', '')}\n"
                       f"{result['diff']}\n{' '.join(result.get('changed', []))}")
     print("\n" + ", ".join(f"{verdict} {count}" for verdict, count in sorted(counts.items())))
 
