@@ -12,6 +12,7 @@ namespace {
 constexpr Ndf GGX = Ndf::ggx, BECKMANN = Ndf::beckmann, ANY = Ndf::any;
 constexpr Method EXACT = Method::exact, APPROXIMATE = Method::approximate;
 constexpr Domain SPHERE = Domain::sphere;
+constexpr double NONE = 0;
 constexpr auto VISIBLE = Support::visible, MIRRORED = Support::mirrored, CAP = Support::cap,
                ABOVE = Support::above;
 // UPPER is a domain and a support.

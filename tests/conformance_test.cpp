@@ -9,8 +9,13 @@
 #include "conformance/runs/check.h"
 #include "conformance/inputs/grids.h"
 #include "conformance/judge/lobes.h"
+#include "conformance/runs/check.h"
+#include "conformance/inputs/grids.h"
+#include "conformance/judge/lobes.h"
+#include "conformance/judge/pointwise.h"
 #include "support/catch.h"
 #include "support/command.h"
+#include "support/skip.h"
 
 using namespace vndf;
 using namespace vndf::conformance;
@@ -51,10 +56,7 @@ TEST_CASE("every function conforms in builtin float") {
 }
 
 TEST_CASE("every function conforms in strict double") {
-    if (!runtime::choose_device().device.fp64) {
-        WARN("the device has no fp64");
-        return;
-    }
+    if (!runtime::choose_device().device.fp64) VNDF_SKIP("the device has no fp64");
     require_conformance(quick_check(runtime::Math::strict, runtime::Real::f64));
 }
 
@@ -77,6 +79,42 @@ TEST_CASE("every kind of check is applied to every function that it fits") {
             for (const char* kind : {"pointwise", "finite", "unit length", "chi2 of the pivots",
                                      "KS of pivot 1", "KS of pivot 2", "chi2 of the directions", "means"})
                 CHECK(kinds.count(kind));
+        }
+    }
+}
+
+// The numbers that bound this form of the function.
+std::vector<double*> numbers(Function& f, Real real) {
+    Bounds& bounds = real == Real::f32 ? f.float_bounds : f.double_bounds;
+    SamplerBounds& s = bounds.sampler;
+    if (f.kind != Kind::sampler) return {&bounds.error};
+    if (f.with_pdf) return {&s.pdf, &s.pdf_core_max, &s.agreement};
+    return {&s.front, &s.back, &s.core, &s.core_max};
+}
+
+TEST_CASE("check asserts every number of the registry, for float and for double") {
+    for (const Real real : {Real::f32, Real::f64}) {
+        runtime::HostEvaluator host(runtime::Math::strict, real);
+        PointwiseOptions few;
+        few.random_points = 512, few.hard_stride = 211;
+        for (const Function& f : functions()) {
+            CAPTURE(f.name, runtime::to_string(real));
+            const auto passes = [&](const Function& g) {
+                const auto findings = check_pointwise(host, g, few);
+                return std::all_of(findings.begin(), findings.end(),
+                                   [](const Finding& finding) { return finding.passed(); });
+            };
+            CHECK(passes(f));
+            // Its own findings fail as soon as one number is 2^-20 of what it is.
+            Function strict = f;
+            for (double* number : numbers(strict, real)) {
+                const double promised = *number;
+                if (promised == 0) continue;  // NONE
+                CAPTURE(promised);
+                *number = promised * 0x1p-20;
+                CHECK_FALSE(passes(strict));
+                *number = promised;
+            }
         }
     }
 }

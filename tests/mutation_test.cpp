@@ -1,6 +1,12 @@
 // Seeded mistakes: `clvndf check` notices every one, and every kind of check notices one.
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <set>
+
+#include "conformance/runs/check.h"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "conformance/runs/check.h"
 #include "mutants.h"
@@ -19,17 +25,23 @@ std::vector<runtime::Substitution> substitutions() {
     return all;
 }
 
-// The quick check of the mutant's functions with the mistake switched in; 0: none.
-Report check_mutant(int id, const std::string& only, runtime::Real real = runtime::Real::f32) {
-    const auto selected = select(only);
+// The check of these functions with one of the substitutions switched in.
+Report check_with(const std::vector<runtime::Substitution>& substitutions, int id,
+                  const std::vector<const Function*>& selected, runtime::Real real, bool quick,
+                  runtime::Math math = runtime::Math::strict) {
     runtime::ProgramOptions program;
     program.functions = needed(selected);
-    program.substitutions = substitutions();
+    program.substitutions = substitutions;
     program.mutant = id;
-    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict, real, program);
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, math, real, program);
     CheckOptions options;
-    options.quick = true;
-    return check(evaluator, runtime::Math::strict, selected, options);
+    options.quick = quick;
+    return check(evaluator, math, selected, options);
+}
+
+// The quick check of the mutant's functions with the mistake switched in; 0: none.
+Report check_mutant(int id, const std::string& only, runtime::Real real = runtime::Real::f32) {
+    return check_with(substitutions(), id, select(only), real, true);
 }
 
 std::set<std::string> failed_checks(const Report& report) {
@@ -89,6 +101,7 @@ TEST_CASE("every kind of check notices a seeded mistake") {
                              "density of the exact sample",
                              "density finite",
                              "density 0 outside",
+                             "documented direction outside the domain",
                              "separate density positive at the samples",
                              "agrees with the separate density",
                              "fit: "}) {
@@ -100,4 +113,22 @@ TEST_CASE("every kind of check notices a seeded mistake") {
                                });
         }));
     }
+}
+
+// Only for random_mutants.py: the JSON file CLVNDF_MUTANT is a mutant and says how to check it. Prints "caught ..." or
+// "survived".
+TEST_CASE("a mutant from outside", "[.outside]") {
+    const char* path = std::getenv("CLVNDF_MUTANT");
+    REQUIRE(path);
+    const auto task = nlohmann::json::parse(std::ifstream(path));
+    const std::vector<runtime::Substitution> mutant{
+        {"kernels/vndf/" + task["file"].get<std::string>(), task["old_text"], task["new_text"], 1}};
+    const runtime::Real real = task["real"] == "double" ? runtime::Real::f64 : runtime::Real::f32;
+    const runtime::Math math = task["math"] == "builtin" ? runtime::Math::builtin : runtime::Math::strict;
+    for (const std::string name : task["functions"]) {
+        const Report report = check_with(mutant, 1, {find_function(name)}, real, task["quick"], math);
+        for (const std::string& check : failed_checks(report)) fmt::print("caught {}: {}\n", name, check);
+        if (!report.passed()) return;
+    }
+    fmt::print("survived\n");
 }

@@ -1,5 +1,6 @@
 #include "registry.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -22,6 +23,8 @@ TEST_CASE("a function takes the scalars that its arguments stand for, in their o
         {"WO_WI_ALPHA", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
         {"WO_WM_ALPHA", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
         {"WO_N_WM_ALPHA1", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "wm_x", "wm_y", "wm_z", "alpha"}},
+        {"CONIC2026_LOBE_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
+        {"CONIC2026_LOBE_WI", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
         {"COS_THETA_X", {"cos_theta", "x"}},
         {"COS_THETA_U1", {"cos_theta", "u1"}},
         {"WO_WM", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z"}},
@@ -63,12 +66,19 @@ TEST_CASE("every sampler is followed by its with_pdf form, and its density is a 
         const Function* density = find_function(f.density);
         REQUIRE(density != nullptr);
         CHECK(density->kind == Kind::density);
-        CHECK(f.p99_front > 0);
-        CHECK(f.p99_back >= f.p99_front);
+        for (const Bounds& bounds : {f.float_bounds, f.double_bounds}) {
+            const SamplerBounds& s = bounds.sampler;
+            CHECK(s.front > 0);
+            // A number where a wo can be back-facing, and only there.
+            const bool back = f.domain == Domain::sphere && f.inputs.front() == "wo_x";
+            CHECK((back ? s.back > 0 : s.back == 0));
+            CHECK(std::min({s.core, s.core_max, s.pdf, s.pdf_core_max}) > 0);
+            CHECK((f.method == Method::exact ? s.agreement > 0 : s.agreement == 0));
+        }
         ++samplers;
     }
-    CHECK(samplers == 14);
-    CHECK(functions().size() == 2 * samplers + 37);
+    CHECK(samplers == 15);
+    CHECK(functions().size() == 2 * samplers + 38);
 }
 
 TEST_CASE("a function is found by its exact name alone") {

@@ -6,9 +6,12 @@
 
 #include <Random123/philox.h>
 
+#include "conformance/judge/samplers.h"
 #include "error.h"
 #include "runtime/device_evaluator.h"
 #include "support/catch.h"
+#include "support/signed_zeros.h"
+#include "support/skip.h"
 
 namespace {
 
@@ -135,9 +138,9 @@ TEST_CASE("a program holds only the functions asked for") {
     const std::string text = assemble("kernels/batch/batch.cl", one);
     CHECK(count(text, "\nVNDF_SAMPLER(vndf_") == 1);
     CHECK(count(text, "\nVNDF_SAMPLER(vndf_ggx_sample_wm_dupuy2023,") == 1);
-    CHECK(count(text, "\nVNDF_FUNCTION(vndf_") == 0);
+    CHECK(count(text, "\nVNDF_TERM(vndf_") == 0);
     const std::string all = assemble("kernels/batch/batch.cl");
-    CHECK(count(all, "\nVNDF_SAMPLER(vndf_") == 14);
+    CHECK(count(all, "\nVNDF_SAMPLER(vndf_") == 15);
     // The registry's lines keep their numbers.
     CHECK(count(all, "\n") == count(text, "\n"));
 }
@@ -231,7 +234,7 @@ TEST_CASE("a device without fp64 does not compute in double") {
 
 TEMPLATE_TEST_CASE("every registered function gives the same bits on the device and on the host", "", float,
                    double) {
-    if (sizeof(TestType) == 8 && !device().fp64) return;
+    if (sizeof(TestType) == 8 && !device().fp64) VNDF_SKIP("the device has no fp64");
     DeviceEvaluator on_device(device(), Math::strict, real_of<TestType>);
     HostEvaluator on_host(Math::strict, real_of<TestType>);
     for (const Function& f : functions()) {
@@ -265,6 +268,48 @@ TEMPLATE_TEST_CASE("the reference and the builtin policy agree with the strict o
                 CHECK(ours[c][i] == Approx(other[c][i]).epsilon(1e-3).margin(1e-4));
             }
         }
+    }
+}
+
+// How many numbers of a and b differ by more than `rounding` of the larger, or of 1.
+template <class R>
+std::size_t disagreements(const Columns<R>& a, const Columns<R>& b, double rounding) {
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < a.size(); ++c)
+        for (std::size_t i = 0; i < a[c].size(); ++i) {
+            const double size = std::max({1.0, double(std::abs(a[c][i])), double(std::abs(b[c][i]))});
+            count += !(std::abs(double(a[c][i]) - double(b[c][i])) <= rounding * size);
+        }
+    return count;
+}
+
+TEMPLATE_TEST_CASE("the sign of a zero changes no result, on the device, on the host and in the reference",
+                   "", float, double) {
+    constexpr Real real = real_of<TestType>;
+    if (real == Real::f64 && !device().fp64) VNDF_SKIP("the device has no fp64");
+    DeviceEvaluator on_device(device(), Math::strict, real);
+    HostEvaluator on_host(Math::strict, real);
+    ReferenceEvaluator reference(real);
+    for (const Function& f : functions()) {
+        CAPTURE(f.name);
+        conformance::Table table;
+        Columns<TestType> signed_zeros(f.inputs.size()), plain;
+        for (const auto& row : rows_with_zeros(f))
+            for (std::size_t c = 0; c < row.size(); ++c) signed_zeros[c].push_back(TestType(row[c]));
+        for (const auto& column : signed_zeros) {
+            table.columns.emplace_back(column.begin(), column.end());
+            for (TestType& x : plain.emplace_back(column)) x += TestType(0);  // -0 + 0 = 0
+        }
+        const auto result = run<TestType>(on_host, f, signed_zeros);
+        CHECK(differences(run<TestType>(on_device, f, signed_zeros), result) == 0);
+        CHECK(disagreements(result, run<TestType>(on_host, f, plain), 0) == 0);
+        CHECK(disagreements(run<double>(reference, f, signed_zeros), run<double>(reference, f, plain),
+                            1e-12) == 0);
+        const auto errors = conformance::pointwise_errors(on_host, f, table);
+        // The 99th percentile, which is what the registry's numbers bound for samplers; few rows are at a jump.
+        const Bounds& bounds = conformance::bounds_of(f, real);
+        CHECK(errors.count() > 0);
+        CHECK(errors.percentile(99) <= (f.kind == Kind::sampler ? bounds.sampler.front : bounds.error));
     }
 }
 
@@ -358,7 +403,7 @@ TEST_CASE("Philox 4x32-10 gives its published known answer") {
 
 TEMPLATE_TEST_CASE("uniforms depend on seed, stream and index alone, in the full resolution of the type", "",
                    float, double) {
-    if (sizeof(TestType) == 8 && !device().fp64) return;
+    if (sizeof(TestType) == 8 && !device().fp64) VNDF_SKIP("the device has no fp64");
     ProgramOptions only;
     only.functions = {"vndf_reflect"};
     DeviceEvaluator evaluator(device(), Math::strict, real_of<TestType>, only);

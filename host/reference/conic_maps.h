@@ -215,6 +215,7 @@ struct DiskPoint {
 template <class R>
 R turn_of(const R& x, const R& y) {
     using std::atan2;
+    if (value_of(hypotenuse(x, y)) == 0) return R(0);  // whatever the signs of the zeros
     const R turn = atan2(y, x) / (2 * pi<R>());
     return turn < 0 ? R(turn + 1) : turn;
 }

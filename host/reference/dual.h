@@ -124,7 +124,7 @@ VNDF_DUAL_FUNCTION(erfc, T(-1.12837916709551257389615890312154517L) * std::exp(-
 
 template <class T, std::size_t N>
 Dual<T, N> abs(const Dual<T, N>& a) {
-    return a.value < 0 ? -a : a;
+    return std::signbit(a.value) ? -a : a;  // |-0| = +0, as of numbers
 }
 
 template <class T, std::size_t N>

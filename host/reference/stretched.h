@@ -41,12 +41,13 @@ R squared(const R& x) {
     return x * x;
 }
 
-// Length of (x, y) without underflow; 0, with derivative 0, at the origin.
+// Length of (x, y) without underflow; 0, with derivative 0, at the origin: +0 whatever the signs of x and y, since atan2
+// tells the zeros apart.
 template <class R>
 R hypotenuse(const R& x, const R& y) {
     using std::abs, std::sqrt;
     const R scale = abs(x) < abs(y) ? R(abs(y)) : R(abs(x));
-    if (!(scale > 0)) return R(value_of(x) + value_of(y));  // 0, or NaN
+    if (!(scale > 0)) return R(std::abs(value_of(x)) + std::abs(value_of(y)));  // +0, or NaN
     return scale * sqrt(squared(R(x / scale)) + squared(R(y / scale)));
 }
 template <class R>

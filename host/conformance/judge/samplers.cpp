@@ -32,10 +32,12 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
 
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
-    Errors front, back, core, length, below, behind, bad;
+    Errors front, back, core, outside, length, below, behind, bad;
     void merge(const MapErrors& other) {
-        front.merge(other.front), back.merge(other.back), core.merge(other.core), length.merge(other.length);
-        below.merge(other.below), behind.merge(other.behind), bad.merge(other.bad);
+        front.merge(other.front), back.merge(other.back), core.merge(other.core),
+            outside.merge(other.outside);
+        length.merge(other.length), below.merge(other.below), behind.merge(other.behind),
+            bad.merge(other.bad);
     }
 };
 
@@ -75,11 +77,16 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
             const double condition =
                 defined ? conditioning(row.data(), precision(real)) : std::numeric_limits<double>::infinity();
             add_invariants(sampler, reader, row.data(), result, condition, unit, i, errors);
-            if (!std::isfinite(condition)) continue;  // no direction, or a true singularity of the map
+            if (where != Region::outside && !std::isfinite(condition))
+                continue;  // no direction, or a true singularity of the map
             const std::vector<R> in(row.begin(), row.end());
             R exact[4];
             evaluation(in.data(), exact, precision(real));
             const R wide[3] = {result[0], result[1], result[2]};
+            if (where == Region::outside) {
+                errors.outside.add(std::equal(wide, wide + 3, exact) ? 0 : 1, i);
+                continue;
+            }
             const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
             (where == Region::front ? errors.front : errors.back).add(error, i);
             if (in_core(reader, row.data())) errors.core.add(error, i);
@@ -123,6 +130,8 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
         add("pointwise, back, p99", errors.back.percentile(99), bounds.back * factor, unit, errors.back);
     add("pointwise, core, p99.9", errors.core.percentile(99.9), bounds.core * factor, unit, errors.core);
     add("pointwise, core, maximum", errors.core.max(), bounds.core_max * factor, unit, errors.core);
+    if (errors.outside.count())
+        add("documented direction outside the domain", errors.outside.max(), 0, "rows", errors.outside);
     add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
     add("unit length", errors.length.max(), (wi ? 8 : 4) * loose, "eps", errors.length);
     if (errors.below.count())
