@@ -41,6 +41,7 @@ std::string indented(const std::string& text) {
 DeviceEvaluator::DeviceEvaluator(const Device& device, Math math, Real real, const ProgramOptions& options)
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
     require_real(device, real);
+    require_policy(math, real);
     const Assembly assembly{options.functions, options.substitutions};
     try {
         context_ = options.context() ? options.context : cl::Context(device.handle);

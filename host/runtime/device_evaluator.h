@@ -25,8 +25,8 @@ struct ProgramOptions {
 
 class DeviceEvaluator final : public Evaluator {
   public:
-    // Builds the program. Throws InputError if the device lacks fp64 and double is asked for, DeviceError
-    // with the build log if the build fails.
+    // Builds the program. Throws InputError if the device lacks fp64 and double is asked for, or the policy is
+    // float only; DeviceError with the build log if the build fails.
     DeviceEvaluator(const Device& device, Math math, Real real, const ProgramOptions& options = {});
 
     void run(const Function& function, std::size_t n, const std::vector<const void*>& inputs,
