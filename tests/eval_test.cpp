@@ -135,6 +135,7 @@ TEST_CASE("bad input is one line that says what was found, where, and what is al
     };
     const std::string row = "0,0,1,0,0,1\n";
     const std::string on_host = " --on host";
+    const std::string float_only = "--math native --real double: native functions are float only";
     const std::vector<Case> cases = {
         {"eval vndf_reflct", "",
          "unknown function 'vndf_reflct'; the nearest names are vndf_reflect, vndf_refract"},
@@ -155,6 +156,12 @@ TEST_CASE("bad input is one line that says what was found, where, and what is al
         {"eval vndf_reflect --device nosuch", reflect_header,
          "--device: no platform or device name contains 'nosuch'; there are '"},
         {"eval vndf_reflect --on host --math native", reflect_header, "--math native: "},
+        {"eval vndf_reflect --math native --real double", reflect_header, float_only},
+        {"eval vndf_reflect --on host --math native --real double", reflect_header, float_only},
+        {"eval vndf_reflect --on reference --real double --math native", reflect_header, float_only},
+        {"check --quick --only vndf_reflect --math native --real double", "", float_only},
+        {"check --digest --math native --real double", "", float_only},
+        {"check --exhaustive --math native --real double", "", float_only},
         {"eval vndf_reflect --on host --device x", reflect_header, "--device 'x': --on host uses no device"},
         {"eval vndf_reflect --on reference --device x", reflect_header,
          "--device 'x': --on reference uses no device"},

@@ -228,6 +228,7 @@ TEST_CASE("a device without fp64 does not compute in double") {
     single.fp64 = false;
     CHECK_THROWS_AS(DeviceEvaluator(single, Math::strict, Real::f64), InputError);
     CHECK_NOTHROW(require_real(single, Real::f32));
+    CHECK_THROWS_AS(DeviceEvaluator(device(), Math::native, Real::f64), InputError);
 }
 
 // ------------------------------------------------------------------------------------------- evaluators

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/driver_failure.h"
 #include "error.h"
 
 namespace vndf::cli {
@@ -19,12 +20,15 @@ void Target::add_to(CLI::App& command) {
         "--device", device,
         "first device whose platform or device name contains this\n(default: $CLVNDF_DEVICE, else "
         "PoCL's CPU device, else the first device)");
-    command.add_option("--math", math_name, "policy of elementary functions: strict, builtin or native")
+    command
+        .add_option("--math", math_name,
+                    "policy of elementary functions: strict, builtin or native (float only)")
         ->check(CLI::IsMember({"strict", "builtin", "native"}))
         ->capture_default_str();
     command.add_option("--real", real_name, "real type: float or double")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
+    command.parse_complete_callback([this] { runtime::require_policy(math(), real()); });
 }
 
 runtime::Math Target::math() const {
@@ -38,6 +42,7 @@ runtime::Real Target::real() const {
 
 runtime::Device Target::choose(const Common& common) const {
     const runtime::Choice choice = runtime::choose_device(device);
+    end_where_drivers_fail();
     if (!choice.note.empty() && !common.quiet) fmt::print(stderr, "clvndf: {}\n", choice.note);
     return choice.device;
 }

@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "error.h"
+#include "runtime/no_device.h"
 
 namespace vndf::cli {
 namespace {
@@ -27,10 +28,7 @@ void print(const runtime::Device& d) {
 
 void print_devices() {
     const auto devices = runtime::devices();
-    if (devices.empty()) {
-        throw DeviceError(
-            "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
-    }
+    if (devices.empty()) throw DeviceError(runtime::no_device());
     for (const runtime::Device& device : devices) print(device);
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/command_line.h"
+#include "cli/driver_failure.h"
 #include "error.h"
 
 namespace {
@@ -32,6 +33,7 @@ std::string one_line(std::string text) {
 
 int main(int argc, char** argv) {
     occupy_standard_streams();
+    vndf::cli::end_where_drivers_fail();
     try {
         vndf::cli::CommandLine line;
         line.parse(argc, argv);

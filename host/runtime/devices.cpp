@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "error.h"
+#include "runtime/no_device.h"
 
 namespace vndf::runtime {
 namespace {
@@ -75,6 +76,7 @@ const Device& default_device(const std::vector<Device>& all) {
 }  // namespace
 
 std::vector<Device> devices() {
+    require_surviving_drivers();
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
@@ -92,10 +94,7 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted) {
         option = "CLVNDF_DEVICE";
         wanted = variable;
     }
-    if (all.empty()) {
-        throw DeviceError(
-            "no OpenCL device on this machine: install an implementation such as pocl-opencl-icd");
-    }
+    if (all.empty()) throw DeviceError(no_device());
     if (wanted.empty()) return {default_device(all), {}};
 
     std::vector<const Device*> matches;
@@ -107,6 +106,8 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted) {
         if (match) matches.push_back(&d);
     }
     if (matches.empty()) {
+        if (const std::string why = why_without_device(wanted); !why.empty())
+            throw DeviceError(fmt::format("{} '{}': {}", option, wanted, why));
         throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option,
                                      wanted, labels));
     }

@@ -26,7 +26,7 @@ struct Device {
 };
 
 // Every device of every platform, in the loader's order. A platform without devices, or one that fails to
-// list them, is passed over.
+// list them, is passed over. Throws DeviceError where asking would end the process.
 std::vector<Device> devices();
 
 struct Choice {
@@ -36,7 +36,7 @@ struct Choice {
 
 // The first device whose platform or device name contains `wanted` (case does not matter). Nothing wanted:
 // the environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device. Throws InputError, listing
-// the devices there are.
+// the devices there are; DeviceError, with the likely cause, if there are none, or only a platform of that name.
 Choice choose_device(std::string wanted = {});
 Choice choose_device(const std::vector<Device>& all, std::string wanted);
 

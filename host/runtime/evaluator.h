@@ -43,6 +43,9 @@ class Evaluator {
 // Throws InputError for Math::native, which exists on devices only.
 void require_host_policy(Math math);
 
+// Throws InputError for Math::native in double, which no device has.
+void require_policy(Math math, Real real);
+
 // kernels/vndf compiled as C++, Math::strict or Math::builtin.
 class HostEvaluator final : public Evaluator {
   public:

@@ -13,6 +13,13 @@ void require_host_policy(Math math) {
     }
 }
 
+void require_policy(Math math, Real real) {
+    if (math == Math::native && real == Real::f64) {
+        throw InputError(
+            "--math native --real double: native functions are float only; strict or builtin are allowed");
+    }
+}
+
 void HostEvaluator::run(const Function& function, std::size_t n, const std::vector<const void*>& inputs,
                         const std::vector<void*>& outputs) {
     const bool strict = math_ == Math::strict;

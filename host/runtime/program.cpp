@@ -24,6 +24,7 @@ std::string indented(const std::string& text) {
 Program::Program(const Device& device, Math math, Real real, const ProgramOptions& options)
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
     require_real(device, real);
+    require_policy(math, real);
     guarded(fmt::format("use \"{}\"", device.name), [&] {
         context_ = cl::Context(device.handle);
         // With profiling for those who time their launches.
@@ -40,6 +41,7 @@ Program::Program(const Program& beside, Math math, Real real, const ProgramOptio
       context_(beside.context_),
       queue_(beside.queue_) {
     require_real(device_, real);
+    require_policy(math, real);
     build(options);
 }
 

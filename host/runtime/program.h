@@ -34,8 +34,8 @@ struct ProgramOptions {
 
 class Program {
   public:
-    // Builds it, in a context of its own. Throws InputError if the device lacks fp64 and double is asked for,
-    // DeviceError with the build log if the build fails.
+    // Builds it, in a context of its own. Throws InputError if the device lacks fp64 and double is asked for, or the
+    // policy is for float only; DeviceError with the build log if the build fails.
     Program(const Device& device, Math math, Real real, const ProgramOptions& options = {});
     // On the device of another program, in its context and its queue.
     Program(const Program& beside, Math math, Real real, const ProgramOptions& options = {});

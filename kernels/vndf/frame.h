@@ -153,14 +153,14 @@ struct vndf_impl_cap {
 VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(struct vndf_impl_view v) {
     struct vndf_impl_cap cap;
     VNDF_REAL large_root = (v.r + vndf_impl_abs(v.z)) * v.rcp_t, small_root = v.l * v.rcp_t;
-    VNDF_REAL large = large_root * large_root, small = small_root * small_root;
+    VNDF_REAL larger = large_root * large_root, smaller = small_root * small_root;
     int front = v.z >= VNDF_R(0.0);
     cap.z = v.z * (large_root * v.rcp_t);
     cap.sine = v.l * (large_root * v.rcp_t);
     cap.sqrt_p = front ? large_root : small_root;
     cap.sqrt_q = front ? small_root : large_root;
-    cap.p = front ? large : small;
-    cap.q = front ? small : large;
+    cap.p = front ? larger : smaller;
+    cap.q = front ? smaller : larger;
     cap.tangent = front ? v.rcp_t : large_root * v.rcp_l;
     return cap;
 }
@@ -199,8 +199,8 @@ VNDF_FN struct vndf_impl_cap_half vndf_impl_cap_half_of(VNDF_REAL dx, VNDF_REAL 
 // u2 b - q = z_b - (1 - u2) b, where b - q = z_b: by the form whose difference is not the smaller.
 VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b, VNDF_REAL q,
                                        VNDF_REAL z_b) {
-    int near = rest < VNDF_R(0.5);
-    return VNDF_FMA(near ? -rest : u2, b, near ? z_b : -q);
+    int at_rim = rest < VNDF_R(0.5);
+    return VNDF_FMA(at_rim ? -rest : u2, b, at_rim ? z_b : -q);
 }
 
 // --- Public geometry ---

@@ -220,8 +220,8 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     VNDF_REAL along = VNDF_FMA(l.s0, rim, VNDF_FMA(l.s2, px, VNDF_FMA(l.s1, py, l.n * epsilon)));
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
     VNDF_REAL cosine = VNDF_SQRT(VNDF_FMA(along, along, left)), tau = left / (along + cosine);
-    VNDF_REAL delta = l.n * tau, move = epsilon + delta;
-    VNDF_REAL m0 = VNDF_FMA(l.c0, move, rim), m1 = VNDF_FMA(l.s1, tau, py), m2 = VNDF_FMA(l.c2, move, px);
+    VNDF_REAL delta = l.n * tau, shift = epsilon + delta;
+    VNDF_REAL m0 = VNDF_FMA(l.c0, shift, rim), m1 = VNDF_FMA(l.s1, tau, py), m2 = VNDF_FMA(l.c2, shift, px);
     h.x = VNDF_FMA(m0, l.e0x, VNDF_FMA(m1, l.e1x, m2 * l.e2x));
     h.y = VNDF_FMA(m0, l.e0y, VNDF_FMA(m1, l.e1y, m2 * l.e2y));
     h.z = VNDF_FMA(m0, l.e0z, VNDF_FMA(m1, l.e1z, m2 * l.e2z));

@@ -19,9 +19,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL radius = VNDF_SQRT(u2), t1 = radius * vndf_impl_circle_cos(u1);
     VNDF_REAL b = radius * vndf_impl_circle_sin(u1), abs_b = vndf_impl_abs(b);
     VNDF_REAL big_r = VNDF_SQRT(VNDF_FMA(b, b, VNDF_R(1.0) - u2));
-    VNDF_REAL near = (VNDF_R(1.0) - u2) / (big_r + abs_b), far = big_r + abs_b;
+    VNDF_REAL sum = big_r + abs_b, difference = (VNDF_R(1.0) - u2) / sum;
     int lower = b < VNDF_R(0.0);
-    VNDF_REAL plus = lower ? near : far, minus = lower ? far : near;  // R + b, R - b
+    VNDF_REAL plus = lower ? difference : sum, minus = lower ? sum : difference;  // R + b, R - b
     VNDF_REAL z = cap.z, sine = cap.sine;
     VNDF_REAL half_p_plus = VNDF_R(0.5) * cap.p * plus, q_r = cap.q * big_r;
     VNDF_REAL t =

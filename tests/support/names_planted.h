@@ -5,7 +5,8 @@ struct planted_type {
 };
 static const int planted_variable = PLANTED_MACRO;
 static inline int planted_function() {
-    return planted_variable;
+    int near = planted_variable, minor(near), planted_Capital = minor;  // windows.h, sys/sysmacros.h
+    return planted_Capital;
 }
 static inline int vndf_allowed() {
     return planted_function();

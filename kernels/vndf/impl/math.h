@@ -2,7 +2,7 @@
 //
 // strict uses only correctly rounded operations and the polynomials of polynomials.h. builtin and native call
 // OpenCL's functions (C++: the standard library's) where there is one; functions without a counterpart (erfcx, erfinv,
-// the Kepler equation ...) keep their polynomials. native means float: double falls back to builtin.
+// the Kepler equation ...) keep their polynomials.
 //
 // Errors are maxima for strict, float / double, in eps = 2^-24 / 2^-53, relative unless stated otherwise. Those in ulps
 // are float's over every number of the domain, rounded up (clvndf_tests "[exhaustive]"). math_test.cpp asserts both at
@@ -14,7 +14,7 @@
 #include "polynomials.h"
 
 #define VNDF_IMPL_STRICT (VNDF_POLICY == 0)
-#define VNDF_IMPL_NATIVE (VNDF_POLICY == 2 && !VNDF_DOUBLE)
+#define VNDF_IMPL_NATIVE (VNDF_POLICY == 2)
 #if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
 #define VNDF_IMPL_STD(name) name
 #if VNDF_IMPL_NATIVE
@@ -308,8 +308,8 @@ VNDF_FN VNDF_REAL vndf_impl_kepler_cos_half(VNDF_REAL k) {
 VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
     VNDF_REAL ax = vndf_impl_abs(x), ay = vndf_impl_abs(y);
 #if VNDF_IMPL_STRICT
-    VNDF_REAL large = ax < ay ? ay : ax, small = ax < ay ? ax : ay;
-    VNDF_REAL t = large > VNDF_R(0.0) ? small / large : x - x;
+    VNDF_REAL larger = ax < ay ? ay : ax, smaller = ax < ay ? ax : ay;
+    VNDF_REAL t = larger > VNDF_R(0.0) ? smaller / larger : x - x;
     VNDF_REAL z = t * t;
     VNDF_IMPL_ARC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL a = t * p;
