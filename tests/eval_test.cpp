@@ -168,9 +168,9 @@ TEST_CASE("bad input is one line that says what was found, where, and what is al
         {"eval vndf_reflect --output .", reflect_header, ".: cannot write: Is a directory"},
         {"eval vndf_reflect --colour", "", "--colour"},
         {"eval", "", "name is required"},
-        {"evaluate", "", "unknown command or option 'evaluate'; the commands are devices, list, eval, check"},
+        {"evaluate", "", "unknown command 'evaluate'; the commands are devices, list, eval, check"},
         {"", "", "A subcommand is required; the commands are devices, list, eval, check"},
-        {"list --seed -1", "", "--seed: '-1' is no seed; 0 to 18446744073709551615 are allowed"},
+        {"list --seed -1", "", "--seed: '-1' is no whole number from 0 to 18446744073709551615"},
     };
     for (const Case& c : cases) {
         const Outcome run = clvndf(c.arguments, c.input);

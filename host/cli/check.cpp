@@ -103,7 +103,11 @@ void run_exhaustive(const Check& options, Common& common) {
         progress(what, done);
         return !interrupted;
     };
-    const auto before = std::signal(SIGINT, [](int) { interrupted = true; });
+    // A second interrupt ends the command at once.
+    const auto before = std::signal(SIGINT, [](int number) {
+        interrupted = true;
+        std::signal(number, SIG_DFL);
+    });
     const auto report = conformance::exhaust(evaluator, options.target.math(), samplers, walk);
     std::signal(SIGINT, before);
     progress.clear();
