@@ -147,7 +147,8 @@ TEST_CASE("a selection of nothing is refused, with what there is to select") {
 }
 
 TEST_CASE("a number outside its range is refused with a range that can be read") {
-    for (const Command& command : commands().commands)
+    const Commands all = commands();
+    for (const Command& command : all.commands)
         for (const Option& option : command.options) {
             if (option.flag || option.values.good[0].find_first_not_of("0123456789.") != std::string::npos)
                 continue;

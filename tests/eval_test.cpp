@@ -214,15 +214,17 @@ TEST_CASE("a failed run leaves no file and destroys none") {
 }
 
 TEST_CASE("an interrupted run leaves no file and destroys none") {
-    const std::string signal = GENERATE("TERM", "HUP", "PIPE");
+    const std::string signal = GENERATE("INT", "TERM", "HUP", "PIPE", "QUIT", "XCPU");
     CAPTURE(signal);
     const Folder folder;
     folder.write("old", "precious");
-    // The input stays open, so that the run waits in the middle; its temporary file tells that it does.
+    // The input stays open, so that the run waits in the middle; its temporary file tells that it does. A shell's
+    // background jobs ignore some signals unless told.
     const int status =
         shell(folder,
-              "exec 2>/dev/null; mkfifo pipe\n"
-              "\"$clvndf\" eval vndf_reflect --on host --input pipe --output old & run=$!\n"
+              "exec 2>/dev/null; mkfifo pipe; ulimit -c 0\n"
+              "env --default-signal=INT,QUIT \"$clvndf\" eval vndf_reflect --on host --input pipe --output "
+              "old & run=$!\n"
               "exec 3>pipe; printf '" +
                   reflect_header.substr(0, reflect_header.size() - 1) +
                   "\\n' >&3\n"
