@@ -113,7 +113,9 @@ std::string with_lobes(const std::string& json, const std::vector<LobeNoise>& lo
 Measurement measure(const std::vector<Entry>& entries, int repetitions,
                     const std::vector<std::pair<std::string, std::string>>& context,
                     const std::vector<LobeNoise>& lobes, const std::function<void(double done)>& progress) {
-    std::vector<std::string> arguments = {"clvndf", "--benchmark_enable_random_interleaving=true"};
+    // The filter and the list, lest variables of the environment leave entries out.
+    std::vector<std::string> arguments = {"clvndf", "--benchmark_enable_random_interleaving=true",
+                                          "--benchmark_filter=all", "--benchmark_list_tests=false"};
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     int argc = static_cast<int>(argv.size());
@@ -172,7 +174,8 @@ std::vector<Result> read_results(const std::string& json, const std::string& pat
     const auto fail = [&](const std::string& why) { throw InputError(fmt::format("{}: {}", path, why)); };
     std::vector<Result> results;
     try {
-        for (const auto& entry : nlohmann::json::parse(json).at("benchmarks")) {
+        const auto data = nlohmann::json::parse(json);
+        for (const auto& entry : data.at("benchmarks")) {
             if (entry.value("aggregate_name", "") != "best") continue;
             Result& result = results.emplace_back();
             result.name = entry.at("run_name");

@@ -66,6 +66,14 @@ bool is_published(const Function& function) {
     return listings.contains(function.name);
 }
 
+bool has_steps(const Function& function) {
+    return function.name == "vndf_beckmann_sample_wm_jakob2014";
+}
+
+bool has_basis(const Function& function) {
+    return function.name == "vndf_ggx_sample_wm_benyoub2024";
+}
+
 Session::Session(const runtime::Device& device)
     : arithmetic_(device, Math::strict, Real::f32, own_program(arithmetic_source())) {}
 
@@ -319,7 +327,7 @@ void Session::add(const Function& function, Math math, Real real) {
 }
 
 void Session::add_steps(const Function& function) {
-    if (function.name != "vndf_beckmann_sample_wm_jakob2014") return;
+    if (!has_steps(function)) return;
     // Every form but the last keeps the last step, which alone is taken with the accurate residual.
     const std::string file = "kernels/vndf/beckmann_slopes.h",
                       first = "VNDF_REAL offset = VNDF_IMPL_STEP(start, 0)",
@@ -343,7 +351,7 @@ void Session::add_published(const Function& function) {
 }
 
 void Session::add_basis(const Function& function) {
-    if (function.name != "vndf_ggx_sample_wm_benyoub2024") return;
+    if (!has_basis(function)) return;
     // Its azimuths are those of the basis: the distribution is the same, the map is another.
     const std::string root = "bench/cap_with_basis.cl";
     add_program(function, Math::strict, Real::f32, {"basis", root, "vndf_bench_cap_with_basis", {}, false});

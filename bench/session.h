@@ -85,5 +85,8 @@ class Session {
 
 // Whether the listing of this function's paper is among those ported.
 bool is_published(const Function& function);
+// Whether add_steps and add_basis have something to add.
+bool has_steps(const Function& function);
+bool has_basis(const Function& function);
 
 }  // namespace vndf::bench

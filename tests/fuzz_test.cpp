@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <random>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "registry.h"
 #include "support/command.h"
 #include "support/csv_oracle.h"
+#include "support/options.h"
 
 using namespace vndf;
 using namespace vndf::test;
@@ -256,80 +258,91 @@ TEST_CASE("the judge of these tests tells right from wrong") {
 
 namespace {
 
-struct Option {
-    std::string name;
-    std::vector<std::string> values, wrong;  // no values: a flag
-};
-
-// What the commands take, as their help says.
-const std::vector<Option> target_options{
-    {"--device", {"x", "PoCL", "a b", ""}, {}},
-    {"--math", {"strict", "builtin", "native"}, {"Strict", "fast", "", "strict "}},
-    {"--real", {"float", "double"}, {"half", "Float", "32"}}};
-const std::vector<Option> common_options{{"--seed",
-                                          {"0", "1", "18446744073709551615"},
-                                          {"-1", "1.5", "x", "", "18446744073709551616", "0x1", " 1"}},
-                                         {"--quiet", {}, {}}};
-const std::vector<Option> eval_options{{"--on", {"device", "host", "reference"}, {"gpu", "", "hos"}},
-                                       {"--input", {"-", "a.csv", "a b"}, {}},
-                                       {"--output", {"-", "b.csv"}, {}},
-                                       {"--hex", {}, {}}};
-const std::vector<Option> check_options{{"--only", {"vndf_ggx", "*", ""}, {}},
-                                        {"--quick", {}, {}},
-                                        {"--json", {"-", "a.json"}, {}},
-                                        {"--junit", {"-", "a.xml"}, {}}};
-
 struct Line {
     std::vector<std::string> words;
     std::string seed = "1", wrong;  // wrong: what a refusal must speak of
 };
 
-Line random_line(Generator& generator) {
-    static const std::vector<std::string> commands{"devices", "list", "eval", "check"};
-    const std::string command = generator.pick(commands);
-    std::vector<Option> options = common_options;
-    const auto add = [&](const std::vector<Option>& more) {
-        options.insert(options.end(), more.begin(), more.end());
-    };
-    if (command == "eval") add(target_options), add(eval_options);
-    if (command == "check") add(target_options), add(check_options);
-    if (command == "list") options.push_back({"--json", {}, {}});
-    Line line;
-    line.words = {command};
-    if (command == "eval") line.words.push_back("vndf_reflect");
-    for (std::size_t i = options.size(); i > 1; --i) std::swap(options[i - 1], options[generator.below(i)]);
-    options.resize(generator.below(options.size() + 1));
-    const auto put = [&](const Option& option, const std::string& value) {
-        if (option.values.empty())
-            line.words.push_back(option.name);
-        else if (generator.chance(30) && !value.empty())
-            line.words.push_back(option.name + "=" + value);
+const Commands& known() {
+    static const Commands all = commands();
+    return all;
+}
+
+// Options of the command and common ones, in any order, none of which excludes or lacks another.
+std::vector<Option> random_options(Generator& generator, const Command& command) {
+    std::vector<Option> all = known().common, chosen;
+    all.insert(all.end(), command.options.begin(), command.options.end());
+    for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[generator.below(i)]);
+    std::set<std::string> names, barred;
+    for (const Option& option : all) {
+        const auto missing = [&](const std::string& name) { return !names.contains(name); };
+        if (only_informs(option) || barred.contains(option.name) || generator.chance(50) ||
+            std::any_of(option.needs.begin(), option.needs.end(), missing))
+            continue;
+        names.insert(option.name);
+        barred.insert(option.excludes.begin(), option.excludes.end());
+        chosen.push_back(option);
+    }
+    return chosen;
+}
+
+using Words = std::vector<std::string>;
+
+Words words_of(Generator& generator, const Option& option, const std::string& value) {
+    if (option.flag) return {option.name};
+    if (generator.chance(30) && !value.empty()) return {option.name + "=" + value};
+    return {option.name, value};
+}
+
+// Makes the line one that must be refused.
+void spoil(Generator& generator, const Command& command, const std::vector<Option>& options,
+           std::vector<Words>& groups, Line& line) {
+    static const Words junk{"--colour", "-x", "--quik", "---", "--seeds=1", "vndf_refract", "list"};
+    const std::size_t at = generator.below(options.size() + 3);
+    const auto unmet = std::find_if(command.options.begin(), command.options.end(),
+                                    [](const Option& option) { return !option.needs.empty(); });
+    if (at < options.size() && options[at].flag && generator.chance(50)) {
+        line.wrong = options[at].name + "=1";  // takes no value
+        groups[at] = {line.wrong};
+    } else if (at < options.size() && !options[at].excludes.empty()) {
+        const std::string& other = line.wrong = generator.pick(options[at].excludes);
+        for (const Option& option : command.options)
+            if (option.name == other)
+                groups.push_back({words_of(generator, option, option.flag ? "" : option.values.good[0])});
+    } else if (at < options.size() && !options[at].flag) {
+        line.wrong = options[at].name;
+        if (generator.chance(70))
+            groups[at] = words_of(generator, options[at], generator.pick(options[at].values.wrong));
         else
-            line.words.push_back(option.name), line.words.push_back(value);
-    };
-    const auto good = [&](const Option& option) {
-        return option.values.empty() ? "" : generator.pick(option.values);
-    };
-    const bool spoil = generator.chance(60);
-    const std::size_t spoilt = generator.below(options.size() + 3);
-    for (std::size_t i = 0; i < options.size(); ++i) {
-        const Option& option = options[i];
-        std::string value = good(option);
-        if (spoil && i == spoilt && !option.wrong.empty()) {
-            value = generator.pick(option.wrong), line.wrong = option.name;
-        } else if (option.name == "--seed") {
-            line.seed = value;
-        }
-        put(option, value);
-        if (spoil && i == spoilt && line.wrong.empty() && !option.values.empty())
-            put(option, good(option)), line.wrong = option.name;
-    }
-    if (spoil && line.wrong.empty()) {
-        static const std::vector<std::string> junk{"--colour", "-x",  "vndf_refract", "list",
-                                                   "--quik",   "---", "--seeds=1"};
+            groups.push_back(words_of(generator, options[at], generator.pick(options[at].values.good)));
+    } else if (unmet != command.options.end() && generator.chance(20) &&
+               std::none_of(options.begin(), options.end(), [&](const Option& option) {
+                   return option.name == unmet->name || option.name == unmet->needs[0];
+               })) {
+        line.wrong = unmet->name;
+        groups.push_back(words_of(generator, *unmet, unmet->values.good[0]));
+    } else {
         line.wrong = generator.pick(junk);
-        line.words.push_back(line.wrong);
+        // Of words without a dash the last is one too many.
+        const std::size_t place = line.wrong[0] == '-' ? generator.below(groups.size() + 1) : groups.size();
+        groups.insert(groups.begin() + static_cast<std::ptrdiff_t>(place), {line.wrong});
     }
+}
+
+Line random_line(Generator& generator) {
+    const Command& command = generator.pick(known().commands);
+    const std::vector<Option> options = random_options(generator, command);
+    Line line;
+    std::vector<Words> groups;
+    for (const Option& option : options) {
+        const std::string value = option.flag ? "" : generator.pick(option.values.good);
+        if (option.name == "--seed") line.seed = value;
+        groups.push_back(words_of(generator, option, value));
+    }
+    if (generator.chance(60)) spoil(generator, command, options, groups, line);
+    if (command.takes_name) groups.insert(groups.begin(), {"vndf_reflect"});
+    groups.insert(groups.begin(), {command.name});
+    for (const Words& group : groups) line.words.insert(line.words.end(), group.begin(), group.end());
     return line;
 }
 
@@ -367,6 +380,31 @@ TEST_CASE("the command line takes what its help says and names what it does not 
         failures.add(fmt::format("{}", fmt::join(line.words, "' '")), misparsed(line));
     }
     failures.require_none();
+}
+
+TEST_CASE("every command and every option of each is tried") {
+    Generator generator(7);
+    std::set<std::string> tried, all;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const std::vector<std::string> words = random_line(generator).words;
+        for (const std::string& word : words) tried.insert(words[0] + " " + word.substr(0, word.find('=')));
+    }
+    for (const Command& command : known().commands)
+        for (const auto* options : {&known().common, &command.options})
+            for (const Option& option : *options)
+                if (!only_informs(option)) all.insert(command.name + " " + option.name);
+    CHECK(all.size() > 40);
+    for (const std::string& option : all) {
+        CAPTURE(option);
+        CHECK(tried.contains(option));
+    }
+    // libFuzzer's dictionary.
+    std::ifstream file(CLVNDF_SOURCE_DIR "/tests/fuzz/command_line.dict");
+    const std::string dictionary(std::istreambuf_iterator<char>(file), {});
+    for (const std::string& option : all) {
+        CAPTURE(option);
+        CHECK(dictionary.find('"' + option.substr(option.find(' ') + 1) + '"') != std::string::npos);
+    }
 }
 
 TEST_CASE("whatever the arguments, the answer is an action or a refusal") {

@@ -1,24 +1,28 @@
 // clvndf bench
-#include <unistd.h>
-
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "bench/measure.h"
 #include "bench/session.h"
 #include "cli/commands.h"
+#include "cli/leftovers.h"
+#include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
+#include "cli/streams.h"
 #include "error.h"
 #include "bench/sources.h"
 
@@ -37,67 +41,138 @@ struct Bench {
 class FreshCaches {
   public:
     FreshCaches() {
-        std::string name = (std::filesystem::temp_directory_path() / "clvndf-bench-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw InputError(fmt::format("{}: cannot create a temporary folder", name));
-        folder_ = name;
         for (const char* variable :
              {"POCL_CACHE_DIR", "CUDA_CACHE_PATH", "MESA_SHADER_CACHE_DIR", "NEO_CACHE_DIR"})
-            setenv(variable, folder_.c_str(), 1);
+            setenv(variable, folder_.path().c_str(), 1);
     }
-    ~FreshCaches() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    FreshCaches(const FreshCaches&) = delete;
-    FreshCaches& operator=(const FreshCaches&) = delete;
 
   private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_{"clvndf-bench-"};
 };
 
 std::string read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) throw InputError(fmt::format("{}: cannot read", path));
+    const auto fail = [&] {
+        throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno)));
+    };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    if (!file) fail();
+    std::string text;
+    char part[1 << 14];
+    while (const std::size_t count = std::fread(part, 1, sizeof part, file.get())) text.append(part, count);
+    if (std::ferror(file.get())) fail();
     return text;
 }
 
-// FOLDER/index.html out of FOLDER/bench.json, by the script in this binary.
-void make_report(const std::string& folder) {
+std::string in_folder(const std::string& folder, const char* name) {
+    return (std::filesystem::path(folder) / name).string();
+}
+
+// The page out of the measurements, by the script in this binary.
+void draw(const std::string& page, const std::string& measurements, const std::string& folder) {
     const auto& files = bench::sources();
     const auto script = std::find_if(
         files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report/report.py"; });
-    const std::filesystem::path work(folder);
-    const auto path = [&](const char* name) { return (work / name).string(); };
     // The paths go by the environment, so that no name has to be quoted.
-    setenv("CLVNDF_REPORT", path("index.html").c_str(), 1);
-    setenv("CLVNDF_BENCH", path("bench.json").c_str(), 1);
+    setenv("CLVNDF_REPORT", page.c_str(), 1);
+    setenv("CLVNDF_BENCH", measurements.c_str(), 1);
+    const auto before =
+        std::signal(SIGPIPE, SIG_IGN);  // python3 may be missing, or end before it has read all
     std::FILE* python = popen("python3 - \"$CLVNDF_REPORT\" \"$CLVNDF_BENCH\"", "w");
     if (python) std::fwrite(script->text.data(), 1, script->text.size(), python);
-    if (!python || pclose(python) != 0)
+    const bool drawn = python && pclose(python) == 0;
+    std::signal(SIGPIPE, before);
+    if (!drawn)
         throw DeviceError(
             fmt::format("--report {}: python3 with matplotlib (python3-matplotlib) could not draw it; the "
                         "measurements are in {}",
-                        folder, path("bench.json")));
+                        folder, measurements));
 }
 
-// `forms`: part of POLICY/REAL that an entry must contain. What others are compared with is always there.
-void add_entries(bench::Session& session, const runtime::Device& device, const Function& function,
-                 const std::string& forms) {
-    const auto wanted = [&](const std::string& form) { return form.find(forms) != std::string::npos; };
+// FOLDER/bench.json and FOLDER/index.html.
+class Report {
+  public:
+    explicit Report(const std::string& folder)
+        : path_(folder),
+          folder_(folder),
+          measurements_(in_folder(folder, "bench.json")),
+          page_(in_folder(folder, "index.html")) {}
+
+    void write(const std::string& json) {
+        measurements_.write(json);
+        measurements_.commit();
+        folder_.keep();
+        draw(page_.temporary_path(), in_folder(path_, "bench.json"), path_);
+        page_.commit();
+    }
+
+  private:
+    std::string path_;
+    NewFolder folder_;
+    OutputFile measurements_, page_;
+};
+
+// What --only asks for: functions, and behind a slash part of the name of a form.
+struct Selection {
+    std::vector<const Function*> functions;
+    std::string forms;
+};
+
+Selection parse_only(const std::string& only) {
+    const std::size_t slash = only.find('/');
+    if (slash == std::string::npos) return {selected_by(only), {}};
+    const std::string forms = only.substr(slash + 1);
+    if (forms.empty())
+        throw InputError(
+            fmt::format("--only '{}': nothing after the slash; part of POLICY/REAL is expected there, "
+                        "as in dupuy2023/strict/float",
+                        only));
+    return {selected_by(only.substr(0, slash)), forms};
+}
+
+// One way to compute a function, with what adds its entries to the session.
+struct Form {
+    std::string name;  // POLICY/REAL
+    std::function<void()> add;
+};
+
+std::vector<Form> forms_of(bench::Session& session, const runtime::Device& device, const Function& function) {
+    std::vector<Form> forms;
     for (const Real real : {Real::f32, Real::f64}) {
         if (real == Real::f64 && !device.fp64) continue;
         for (const Math math : {Math::strict, Math::builtin, Math::native}) {
             if (real == Real::f64 && math == Math::native) continue;  // native means float
-            if (wanted(fmt::format("{}/{}", to_string(math), to_string(real))))
-                session.add(function, math, real);
+            forms.push_back({fmt::format("{}/{}", to_string(math), to_string(real)),
+                             [&session, &function, math, real] { session.add(function, math, real); }});
         }
     }
-    if (wanted("steps/float")) session.add_steps(function);
-    session.add_published(function);
-    if (wanted("basis/float")) session.add_basis(function);
-    if (wanted("cpp/float")) session.add_cpp(function);
+    if (bench::has_steps(function)) forms.push_back({"steps/float", [&] { session.add_steps(function); }});
+    if (bench::is_published(function))
+        forms.push_back({"published/float", [&] { session.add_published(function); }});
+    if (bench::has_basis(function)) forms.push_back({"basis/float", [&] { session.add_basis(function); }});
+    forms.push_back({"cpp/float", [&] { session.add_cpp(function); }});
+    return forms;
+}
+
+// What is to be measured. The published form, with which others are compared, is always there.
+std::vector<Form> selected_forms(bench::Session& session, const runtime::Device& device,
+                                 const Selection& selection, const std::string& only) {
+    std::vector<Form> selected;
+    std::set<std::string> all;
+    for (const Function* function : selection.functions) {
+        const std::vector<Form> forms = forms_of(session, device, *function);
+        const auto wanted = [&](const Form& form) {
+            return form.name.find(selection.forms) != std::string::npos;
+        };
+        for (const Form& form : forms) all.insert(form.name);
+        if (std::none_of(forms.begin(), forms.end(), wanted)) continue;
+        for (const Form& form : forms)
+            if (wanted(form) || form.name == "published/float")
+                selected.push_back({function->name + " " + form.name, form.add});
+    }
+    if (selected.empty())
+        throw InputError(fmt::format("--only '{}': '{}' is part of none of {}", only, selection.forms,
+                                     fmt::join(all, ", ")));
+    return selected;
 }
 
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
@@ -130,47 +205,41 @@ void print_table(const std::vector<bench::Result>& results, const std::vector<be
     for (const bench::Result& r : results) width = std::max(width, r.name.size());
     std::map<std::string, double> before;
     for (const bench::Result& r : baseline) before[r.name] = r.best_ns;
-    fmt::print("{:{}} {:>9} {:>9} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}{}\n", "entry", width, "best ns",
-               "median", "useful", "of copy", "published", "err p50", "err p99", "err max",
-               before.empty() ? "" : "  baseline");
+    put("{:{}} {:>9} {:>9} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}{}\n", "entry", width, "best ns", "median",
+        "useful", "of copy", "published", "err p50", "err p99", "err max",
+        before.empty() ? "" : "  baseline");
     for (const bench::Result& r : results) {
-        fmt::print("{:{}} {:9.3f} {:9.3f} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}", r.name, width, r.best_ns,
-                   r.median_ns, cell(r.counters, "ns_per_useful_sample", "{:.3f}"),
-                   cell(r.counters, "fraction_of_copy", "{:.2f}"),
-                   cell(r.counters, "speedup_over_published", "{:.1f} x"),
-                   cell(r.counters, "err_p50", "{:.2g}"), cell(r.counters, "err_p99", "{:.2g}"),
-                   cell(r.counters, "err_max", "{:.2g}"));
-        if (before.contains(r.name)) fmt::print("  {:.2f} x", r.best_ns / before[r.name]);
-        fmt::print("\n");
+        put("{:{}} {:9.3f} {:9.3f} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}", r.name, width, r.best_ns,
+            r.median_ns, cell(r.counters, "ns_per_useful_sample", "{:.3f}"),
+            cell(r.counters, "fraction_of_copy", "{:.2f}"),
+            cell(r.counters, "speedup_over_published", "{:.1f} x"), cell(r.counters, "err_p50", "{:.2g}"),
+            cell(r.counters, "err_p99", "{:.2g}"), cell(r.counters, "err_max", "{:.2g}"));
+        if (before.contains(r.name)) put("  {:.2f} x", r.best_ns / before[r.name]);
+        put("\n");
     }
-    fmt::print(
-        "Nanoseconds a sample, wall clock, best and median of the repetitions, all entries interleaved. of "
+    put("Nanoseconds a sample, wall clock, best and median of the repetitions, all entries interleaved. of "
         "copy: time of "
         "the fastest plain copy of as many bytes over this time; published: time of the published listing "
         "ported line by "
         "line over this time; err: in 2^-24 (double: 2^-53) times 1 + condition number.\n");
-    if (!before.empty()) fmt::print("baseline: this time over the baseline's.\n");
+    if (!before.empty()) put("baseline: this time over the baseline's.\n");
 }
 
 void run_bench(const Bench& options, Common& common) {
-    const std::size_t slash = std::min(options.only.find('/'), options.only.size());
-    const auto selected = conformance::select(options.only.substr(0, slash));
-    const std::string forms = options.only.substr(std::min(slash + 1, options.only.size()));
-    if (selected.empty())
-        throw InputError(
-            fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
-                        options.only, fmt::join(nearest_names(options.only), ", ")));
+    const Selection selection = parse_only(options.only);
+    std::vector<NamedFile> outputs = {{"--json", options.json}};
+    if (!options.report.empty())
+        for (const char* name : {"bench.json", "index.html"})
+            outputs.push_back({"--report", in_folder(options.report, name)});
+    require_distinct(outputs, {{"--compare", options.compare}});
     std::vector<bench::Result> baseline;
     if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
+    const bool table = !is_standard_output(options.json);
+    if (table) require_output();
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
-    std::optional<OutputFile> report;
-    if (!options.report.empty()) {
-        std::error_code failure;
-        std::filesystem::create_directories(options.report, failure);
-        if (failure) throw InputError(fmt::format("--report {}: {}", options.report, failure.message()));
-        report.emplace(options.report + "/bench.json");
-    }
+    std::optional<Report> report;
+    if (!options.report.empty()) report.emplace(options.report);
 
     const FreshCaches caches;
     Target target;
@@ -178,10 +247,10 @@ void run_bench(const Bench& options, Common& common) {
     const runtime::Device device = target.choose(common);
     const Progress progress(common.quiet);
     bench::Session session(device);
-    for (std::size_t i = 0; i < selected.size(); ++i) {
-        progress("building " + selected[i]->name,
-                 static_cast<double>(i) / static_cast<double>(selected.size()));
-        add_entries(session, device, *selected[i], forms);
+    const std::vector<Form> forms = selected_forms(session, device, selection, options.only);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+        progress("building " + forms[i].name, static_cast<double>(i) / static_cast<double>(forms.size()));
+        forms[i].add();
     }
     // Only the JSON holds the noise, which takes seconds.
     const bool written = json || report;
@@ -191,8 +260,8 @@ void run_bench(const Bench& options, Common& common) {
                        [&](double done) { progress("measuring", done); });
     progress.clear();
     if (json) json->write(measurement.json), json->commit();
-    if (options.json != "-") print_table(measurement.results, baseline);
-    if (report) report->write(measurement.json), report->commit(), make_report(options.report);
+    if (table) print_table(measurement.results, baseline);
+    if (report) report->write(measurement.json);
 }
 
 }  // namespace
@@ -202,15 +271,13 @@ void add_bench(CLI::App& app, Common& common) {
     CLI::App* command = app.add_subcommand(
         "bench",
         "time of every function in every policy, beside the published listings, C++ and plain copies");
-    command->add_option("--device", options->device,
-                        "first device whose platform or device name contains this");
+    add_device(*command, options->device);
     command->add_option(
         "--only", options->only,
         "only functions whose name contains this, or matches it with * and ?; after a slash, only "
         "policies\nand types that contain what follows: dupuy2023/strict/float");
-    command->add_option("--repetitions", options->repetitions, "how often each entry is measured")
-        ->check(CLI::Range(3, 1000))
-        ->capture_default_str();
+    add_number(*command, "--repetitions", options->repetitions, 3, 1000, "how often each entry is measured")
+        ->default_str("15");
     command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
     command
         ->add_option("--report", options->report,

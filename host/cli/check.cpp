@@ -1,17 +1,18 @@
 // clvndf check
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
 #include "conformance/judge/digest.h"
 #include "conformance/runs/exhaustive.h"
+#include "cli/streams.h"
 #include "error.h"
 
 namespace vndf::cli {
@@ -29,25 +30,21 @@ struct Check {
     std::string slice = "1/1";
 };
 
-std::vector<const Function*> selected_by(const Check& options) {
-    auto selected = conformance::select(options.only);
-    if (!selected.empty()) return selected;
-    throw InputError(
-        fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
-                    options.only, fmt::join(nearest_names(options.only), ", ")));
-}
-
 // One hash a function, and nothing else on the standard output.
 void run_digest(const Check& options, Common& common) {
-    const auto selected = selected_by(options);
+    const auto selected = selected_by(options.only);
     conformance::BitsOptions bits;
     bits.math = options.target.math();
+    require_output();
     if (options.quick) bits.rows = conformance::quick_digest_rows;
     const Progress progress(common.quiet);
     bits.progress = [&](const std::string& what, double done) { progress(what, done); };
 
     std::unique_ptr<runtime::Evaluator> evaluator;
     if (options.on == "host") {
+        if (!options.target.device.empty())
+            throw InputError(fmt::format("--device '{}': --on host uses no device; only --on device does",
+                                         options.target.device));
         evaluator = std::make_unique<runtime::HostEvaluator>(bits.math, options.target.real());
     } else {
         const runtime::Device device = options.target.choose(common);
@@ -61,37 +58,41 @@ void run_digest(const Check& options, Common& common) {
     const auto digests = conformance::digests(*evaluator, selected, bits);
     progress.clear();
     if (bits.flushes && !common.quiet) {
-        fmt::print(stderr,
-                   "clvndf: {} flushes subnormal numbers; exempt, with the host build's results instead:\n",
-                   evaluator->describe());
+        remark("clvndf: {} flushes subnormal numbers; exempt, with the host build's results instead:\n",
+               evaluator->describe());
         for (const conformance::Digest& digest : digests)
-            if (digest.exempt > 0)
-                fmt::print(stderr, "  {} {} of {}\n", digest.function->name, digest.exempt, bits.rows);
+            if (digest.exempt > 0) remark("  {} {} of {}\n", digest.function->name, digest.exempt, bits.rows);
     }
-    fmt::print("{}", conformance::format_digests(digests));
+    put(conformance::format_digests(digests));
 }
 
 std::atomic<bool> interrupted{false};
 
-// "3/10": the third of ten equal parts.
-conformance::Slice parse_slice(const std::string& text) {
-    unsigned number = 0, count = 0;
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%9u/%9u%n", &number, &count, &end) == 2 &&
-        static_cast<std::size_t>(end) == text.size() && number >= 1 && number <= count)
-        return {number - 1, count};
-    throw InputError(fmt::format("--slice '{}': expected a part I/N with 1 <= I <= N, as in 3/10", text));
+// "3/10": the third of ten equal parts of a walk that has `most` of them.
+conformance::Slice parse_slice(const std::string& text, std::uint32_t most) {
+    const char* const last = text.data() + text.size();
+    std::uint32_t number = 0, count = 0;
+    const auto [slash, error] = std::from_chars(text.data(), last, number);
+    if (error == std::errc() && slash != last && *slash == '/') {
+        const auto [end, none] = std::from_chars(slash + 1, last, count);
+        if (none == std::errc() && end == last && number >= 1 && number <= count && count <= most)
+            return {number - 1, count};
+    }
+    throw InputError(
+        fmt::format("--slice '{}': expected a part I/N with 1 <= I <= N <= {}, as in 3/10", text, most));
 }
 
 // Ends at the first of: all walked, the time given, an interrupt; and reports in each case.
 void run_exhaustive(const Check& options, Common& common) {
-    const auto samplers = conformance::samplers_of(selected_by(options));
-    if (samplers.empty()) throw InputError(fmt::format("--only '{}': no sampler", options.only));
+    const auto samplers = conformance::samplers_of(selected_by(options.only));
+    if (samplers.empty())
+        throw InputError(fmt::format("--only '{}': no sampler, which --exhaustive needs", options.only));
     if (options.target.real() != runtime::Real::f32)
         throw InputError("--exhaustive --real double: only the values of a float can be exhausted");
     conformance::ExhaustiveOptions walk;
-    walk.slice = parse_slice(options.slice);
+    walk.slice = parse_slice(options.slice, conformance::exhaustive_parts(samplers));
     if (options.minutes > 0) walk.seconds = 60 * options.minutes;
+    require_output();
 
     const runtime::Device device = options.target.choose(common);
     const Progress progress(common.quiet);
@@ -102,20 +103,25 @@ void run_exhaustive(const Check& options, Common& common) {
         progress(what, done);
         return !interrupted;
     };
-    const auto before = std::signal(SIGINT, [](int) { interrupted = true; });
+    // A second interrupt ends the command at once.
+    const auto before = std::signal(SIGINT, [](int number) {
+        interrupted = true;
+        std::signal(number, SIG_DFL);
+    });
     const auto report = conformance::exhaust(program, samplers, walk);
     std::signal(SIGINT, before);
     progress.clear();
-    fmt::print("{}", conformance::format_table(report));
+    put(conformance::format_table(report));
     common.exit_status = !report.passed() ? 1 : interrupted ? 128 + SIGINT : 0;
 }
 
 void run_check(const Check& options, Common& common) {
     if (options.exhaustive) return run_exhaustive(options, common);
     if (options.digest) return run_digest(options, common);
-    const auto selected = selected_by(options);
-    if (options.json == "-" && options.junit == "-")
-        throw InputError("--json - and --junit -: only one of them can have the standard output");
+    const auto selected = selected_by(options.only);
+    require_distinct({{"--json", options.json}, {"--junit", options.junit}});
+    const bool table = !is_standard_output(options.json) && !is_standard_output(options.junit);
+    if (table) require_output();
     // Opened before the work, so that a path that cannot be written costs no time.
     std::optional<OutputFile> json, junit;
     if (!options.json.empty()) json.emplace(options.json);
@@ -137,7 +143,7 @@ void run_check(const Check& options, Common& common) {
 
     if (json) json->write(conformance::format_json(report)), json->commit();
     if (junit) junit->write(conformance::format_junit(report)), junit->commit();
-    if (options.json != "-" && options.junit != "-") fmt::print("{}", conformance::format_table(report));
+    if (table) put(conformance::format_table(report));
     common.exit_status = report.passed() ? 0 : 1;
 }
 
@@ -148,15 +154,12 @@ void add_check(CLI::App& app, Common& common) {
     CLI::App* command = app.add_subcommand(
         "check", "conformance of a device: every function against the reference; exit status 1 if one fails");
     options->target.add_to(*command);
-    command->add_option("--only", options->only,
-                        "only functions whose name contains this, or matches it with * and ?");
+    add_only(*command, options->only);
     CLI::Option* quick =
         command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
-    command
-        ->add_option("--points", options->points,
-                     "random inputs a function of the pointwise comparison, beside its hard grid (65536; "
-                     "--quick: 16384)")
-        ->check(CLI::Range(std::size_t{1024}, std::size_t{1} << 24));
+    CLI::Option* points = add_number(
+        *command, "--points", options->points, std::size_t{1024}, std::size_t{1} << 24,
+        "random inputs a function of the pointwise comparison, beside its hard grid (65536; --quick: 16384)");
     CLI::Option* json =
         command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
     CLI::Option* junit = command->add_option("--junit", options->junit,
@@ -167,6 +170,7 @@ void add_check(CLI::App& app, Common& common) {
                        "instead: every u that is a multiple of 2^-24, at hard lobes, judged on the device; "
                        "hours\n(an interrupt ends it with a report)")
             ->excludes(quick)
+            ->excludes(points)
             ->excludes(json)
             ->excludes(junit);
     CLI::Option* digest =
@@ -175,6 +179,7 @@ void add_check(CLI::App& app, Common& common) {
                 "--digest", options->digest,
                 "instead: a hash for each function of its results at 2^20 fixed inputs (--quick: 2^12);\n"
                 "strict ones are the same on every device")
+            ->excludes(points)
             ->excludes(json)
             ->excludes(junit)
             ->excludes(exhaustive);
@@ -182,9 +187,8 @@ void add_check(CLI::App& app, Common& common) {
         ->needs(digest)
         ->check(CLI::IsMember({"device", "host"}))
         ->capture_default_str();
-    command->add_option("--minutes", options->minutes, "end the exhaustion after this time")
-        ->needs(exhaustive)
-        ->check(CLI::PositiveNumber);
+    add_number(*command, "--minutes", options->minutes, 0.001, 1e6, "end the exhaustion after this time")
+        ->needs(exhaustive);
     command->add_option("--slice", options->slice, "this part of the exhaustion only: I/N, the I-th of N")
         ->needs(exhaustive);
     command->callback(

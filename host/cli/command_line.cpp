@@ -1,25 +1,24 @@
 #include "cli/command_line.h"
 
-#include <charconv>
-#include <cstdio>
-#include <iostream>
 #include <limits>
+#include <set>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/driver_failure.h"
+#include "cli/options.h"
+#include "cli/streams.h"
 #include "error.h"
 
 namespace vndf::cli {
 
 void Target::add_to(CLI::App& command) {
-    command.add_option(
-        "--device", device,
-        "first device whose platform or device name contains this\n(default: $CLVNDF_DEVICE, else "
-        "PoCL's CPU device, else the first device)");
+    add_device(command, device);
     command
         .add_option("--math", math_name,
                     "policy of elementary functions: strict, builtin or native (float only)")
@@ -43,37 +42,92 @@ runtime::Real Target::real() const {
 runtime::Device Target::choose(const Common& common) const {
     const runtime::Choice choice = runtime::choose_device(device);
     end_where_drivers_fail();
-    if (!choice.note.empty() && !common.quiet) fmt::print(stderr, "clvndf: {}\n", choice.note);
+    if (!choice.note.empty() && !common.quiet) remark("clvndf: {}\n", choice.note);
     return choice.device;
 }
 
 namespace {
 
+bool takes_value(const CLI::Option& option) {
+    return option.get_items_expected_max() > 0;
+}
+
+std::vector<CLI::App*> commands_of(CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::string command_names(CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+    return fmt::format("the commands are {} (see clvndf --help)", fmt::join(names, ", "));
+}
+
+// What may stand behind the command, or (null) before one.
+std::string allowed(CLI::App& app, const CLI::App* command) {
+    std::vector<std::string> words;
+    for (const CLI::App* level : {command, static_cast<const CLI::App*>(&app)}) {
+        if (!level) continue;
+        for (const CLI::Option* option : level->get_options()) {
+            if (option->get_positional()) words.insert(words.begin(), "a " + option->get_name());
+            const auto& names = option->get_lnames();
+            if (!names.empty() && names[0] != "help" && names[0] != "version")
+                words.push_back("--" + names[0]);
+        }
+    }
+    return fmt::format(
+        "{} takes {}; {}", command ? "clvndf " + command->get_name() : "clvndf", fmt::join(words, ", "),
+        command ? fmt::format("see clvndf {} --help", command->get_name()) : command_names(app));
+}
+
+// What is wrong with the first word that does not fit, read from left to right; empty if each fits. CLI11 speaks of
+// whichever word it has left at the end.
+std::string misfit(CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* command = nullptr;
+    std::size_t free_places = 0;
+    std::set<const CLI::Option*> seen;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string &word = words[i], name = word.substr(0, word.find('='));
+        if (word == "--") continue;
+        if (word.size() > 1 && word[0] == '-') {
+            const CLI::Option* option = command ? command->get_option_no_throw(name) : nullptr;
+            if (!option) option = app.get_option_no_throw(name);
+            if (!option) return fmt::format("unknown option '{}'; {}", word, allowed(app, command));
+            const bool attached = name != word;
+            if (!takes_value(*option)) {
+                if (attached) return fmt::format("'{}': {} takes no value", word, name);
+                continue;
+            }
+            if (!seen.insert(option).second) return fmt::format("{} is given twice", name);
+            if (word == name + "=") return fmt::format("{}: its value is empty", name);
+            if (!attached && ++i == words.size()) return fmt::format("{}: its value is missing", name);
+        } else if (!command) {
+            for (const CLI::App* candidate : commands_of(app))
+                if (candidate->get_name() == word) command = candidate;
+            if (!command) return fmt::format("unknown command '{}'; {}", word, command_names(app));
+            for (const CLI::Option* option : command->get_options()) free_places += option->get_positional();
+        } else if (free_places-- == 0) {
+            return fmt::format("'{}' is one word too many; {}", word, allowed(app, command));
+        }
+    }
+    return {};
+}
+
 // What CLI11 found wrong, in one line; with the commands there are if it was the command.
-std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+std::string explain(CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+    if (const std::string found = misfit(app, words); !found.empty()) return found;
     if (const auto chosen = app.get_subcommands(); !chosen.empty()) {
         return fmt::format("{} (see clvndf {} --help)", error.what(), chosen.front()->get_name());
     }
-    std::vector<std::string> commands;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        commands.push_back(command->get_name());
-    }
-    const auto rest = app.remaining();
-    const std::string found =
-        rest.empty() ? error.what() : fmt::format("unknown command or option '{}'", rest.front());
-    return fmt::format("{}; the commands are {} (see clvndf --help)", found, fmt::join(commands, ", "));
+    return fmt::format("{}; {}", error.what(), command_names(app));
 }
 
-// Takes the seed from its text; CLI11 would let -1 wrap around.
-void add_seed(CLI::App& app, Common& common) {
-    const auto parse = [&common](const std::string& text) {
-        const char* const last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, common.seed);
-        if (error == std::errc() && end == last) return;
-        throw InputError(fmt::format("--seed: '{}' is no seed; 0 to {} are allowed", text,
-                                     std::numeric_limits<std::uint64_t>::max()));
-    };
-    app.add_option_function<std::string>("--seed", parse, "seed of every random number")->default_str("1");
+// An empty value has no meaning for any option.
+void refuse_empty_values(CLI::App& app) {
+    const CLI::Validator not_empty(
+        [](const std::string& value) { return value.empty() ? "its value is empty" : ""; }, "", "");
+    for (CLI::Option* option : app.get_options([](const CLI::Option*) { return true; }))
+        if (takes_value(*option)) option->check(not_empty);
+    for (CLI::App* command : commands_of(app)) refuse_empty_values(*command);
 }
 
 }  // namespace
@@ -81,10 +135,13 @@ void add_seed(CLI::App& app, Common& common) {
 CommandLine::CommandLine()
     : app_("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals",
            "clvndf") {
+    app_.option_defaults()->disable_flag_override();  // --json=a.json is no flag
     app_.set_version_flag("--version", "clvndf " CLVNDF_VERSION);
     app_.require_subcommand(1);
     app_.fallthrough();
-    add_seed(app_, common_);
+    add_number(app_, "--seed", common_.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
+               "seed of every random number")
+        ->default_str("1");
     app_.add_flag("--quiet", common_.quiet, "no progress and no remarks on stderr");
     add_devices(app_, common_);
     add_list(app_, common_);
@@ -94,22 +151,26 @@ CommandLine::CommandLine()
 #ifdef CLVNDF_BENCH
     add_bench(app_, common_);
 #endif
+    refuse_empty_values(app_);
 }
 
 void CommandLine::parse(int argc, const char* const* argv) {
     try {
         app_.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
-        common_.action = [this, help_or_version] { app_.exit(help_or_version, std::cout, std::cerr); };
+        common_.action = [this, help_or_version] {
+            std::ostringstream text;
+            app_.exit(help_or_version, text, text);
+            put(text.str());
+        };
     } catch (const CLI::ParseError& error) {
-        throw InputError(explain(app_, error));
+        throw InputError(explain(app_, error, {argv + 1, argv + argc}));
     }
 }
 
 int CommandLine::run() {
     common_.action();
-    if (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout))
-        throw InputError("standard output: cannot write");
+    flush_output();
     return common_.exit_status;
 }
 

@@ -18,6 +18,8 @@ class CommandLine {
     int run();
 
     const Common& common() const { return common_; }
+    // The commands and their options, for the tests.
+    CLI::App& app() { return app_; }
 
   private:
     CLI::App app_;

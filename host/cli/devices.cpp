@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/streams.h"
 #include "error.h"
 #include "runtime/no_device.h"
 
@@ -13,17 +14,17 @@ std::string_view yes_no(bool b) {
 }
 
 void print(const runtime::Device& d) {
-    fmt::print("{}\n", d.label());
-    fmt::print("  {:32}{}\n", "platform version", d.platform_version);
-    fmt::print("  {:32}{}\n", "driver version", d.driver);
-    fmt::print("  {:32}{}\n", "OpenCL C version", d.c_version);
-    fmt::print("  {:32}{}\n", "double (fp64)", yes_no(d.fp64));
-    fmt::print("  {:32}{}\n", "fma in hardware", yes_no(d.fma));
-    fmt::print("  {:32}{}\n", "denormals", yes_no(d.denormals));
-    fmt::print("  {:32}{}\n", "correctly rounded / and sqrt", yes_no(d.correct_divide_sqrt));
-    fmt::print("  {:32}{}\n", "compute units", d.compute_units);
-    fmt::print("  {:32}{} MHz\n", "clock", d.clock_mhz);
-    fmt::print("  {:32}{:.1f} GiB\n", "memory", static_cast<double>(d.memory_bytes) / (1u << 30));
+    put("{}\n", d.label());
+    put("  {:32}{}\n", "platform version", d.platform_version);
+    put("  {:32}{}\n", "driver version", d.driver);
+    put("  {:32}{}\n", "OpenCL C version", d.c_version);
+    put("  {:32}{}\n", "double (fp64)", yes_no(d.fp64));
+    put("  {:32}{}\n", "fma in hardware", yes_no(d.fma));
+    put("  {:32}{}\n", "denormals", yes_no(d.denormals));
+    put("  {:32}{}\n", "correctly rounded / and sqrt", yes_no(d.correct_divide_sqrt));
+    put("  {:32}{}\n", "compute units", d.compute_units);
+    put("  {:32}{} MHz\n", "clock", d.clock_mhz);
+    put("  {:32}{:.1f} GiB\n", "memory", static_cast<double>(d.memory_bytes) / (1u << 30));
 }
 
 void print_devices() {

@@ -66,6 +66,7 @@ void append_rows(std::string& text, const std::vector<std::vector<Out>>& columns
 template <class In, class Out>
 void stream(const Eval& eval, const Common& common) {
     const Function& function = named_function(eval.name);
+    require_distinct({{"--output", eval.output}}, {{"--input", eval.input}});
     const auto make_evaluator = evaluator_maker(eval, common);
     OutputFile output(eval.output);
     TableReader<In> reader(eval.input, function.inputs, function.name + " takes");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/streams.h"
 #include "registry.h"
 
 namespace vndf::cli {
@@ -44,15 +45,15 @@ nlohmann::ordered_json to_json(const Function& f) {
 void print_json() {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const Function& f : functions()) all.push_back(to_json(f));
-    fmt::print("{}\n", all.dump(2));
+    put("{}\n", all.dump(2));
 }
 
 void print_table() {
     std::size_t widest = 0;
     for (const Function& f : functions()) widest = std::max(widest, f.name.size());
     for (const Function& f : functions()) {
-        fmt::print("{:{}}  {:8}  {} -> {}\n", f.name, widest, to_string(f.kind), fmt::join(f.inputs, ","),
-                   fmt::join(f.outputs, ","));
+        put("{:{}}  {:8}  {} -> {}\n", f.name, widest, to_string(f.kind), fmt::join(f.inputs, ","),
+            fmt::join(f.outputs, ","));
     }
 }
 

@@ -1,15 +1,14 @@
 // clvndf: the command.
 #include <algorithm>
-#include <cstdio>
+#include <csignal>
 #include <exception>
 #include <string>
-#include <system_error>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 
 #include "cli/command_line.h"
 #include "cli/driver_failure.h"
+#include "cli/streams.h"
 #include "error.h"
 
 namespace {
@@ -34,21 +33,19 @@ std::string one_line(std::string text) {
 int main(int argc, char** argv) {
     occupy_standard_streams();
     vndf::cli::end_where_drivers_fail();
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of file sizes then fails as on a full disk
     try {
         vndf::cli::CommandLine line;
         line.parse(argc, argv);
         return line.run();
     } catch (const vndf::InputError& error) {
-        fmt::print(stderr, "clvndf: {}\n", one_line(error.what()));
+        vndf::cli::remark("clvndf: {}\n", one_line(error.what()));
         return error.exit_status();
     } catch (const vndf::Error& error) {
-        fmt::print(stderr, "clvndf: {}\n", error.what());
+        vndf::cli::remark("clvndf: {}\n", error.what());
         return error.exit_status();
-    } catch (const std::system_error& error) {  // what fmt::print throws
-        fmt::print(stderr, "clvndf: standard output: {}\n", error.what());
-        return 2;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "clvndf: {}\n", error.what());
+        vndf::cli::remark("clvndf: {}\n", error.what());
         return 3;
     }
 }

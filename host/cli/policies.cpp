@@ -2,13 +2,12 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "cli/commands.h"
+#include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/policies.h"
-#include "error.h"
+#include "cli/streams.h"
 
 namespace vndf::cli {
 namespace {
@@ -19,11 +18,9 @@ struct Policies {
 };
 
 void run_policies(const Policies& options, Common& common) {
-    const auto selected = conformance::select(options.only);
-    if (selected.empty())
-        throw InputError(
-            fmt::format("--only '{}': no function of that name; the nearest are {} (see clvndf list)",
-                        options.only, fmt::join(nearest_names(options.only), ", ")));
+    const auto selected = selected_by(options.only);
+    const bool table = !is_standard_output(options.json);
+    if (table) require_output();
     std::optional<OutputFile> json;
     if (!options.json.empty()) json.emplace(options.json);
 
@@ -39,7 +36,7 @@ void run_policies(const Policies& options, Common& common) {
     progress.clear();
 
     if (json) json->write(conformance::format_json(report)), json->commit();
-    if (options.json != "-") fmt::print("{}", conformance::format_table(report));
+    if (table) put(conformance::format_table(report));
     common.exit_status = report.passed() ? 0 : 1;
 }
 
@@ -51,13 +48,11 @@ void add_policies(CLI::App& app, Common& common) {
         "policies",
         "errors of every function in every policy, and in strict with the build options that loosen it;\n"
         "exit status 1 if strict or builtin breaks a promise");
-    command->add_option("--device", options->device,
-                        "first device whose platform or device name contains this");
+    add_device(*command, options->device);
     command->add_option("--real", options->real, "real type: float or double")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
-    command->add_option("--only", options->only,
-                        "only functions whose name contains this, or matches it with * and ?");
+    add_only(*command, options->only);
     command->add_flag("--quick", options->quick, "fewer points");
     command->add_option("--json", options->json, "write the figures as JSON (- for standard output)");
     command->callback(

@@ -3,10 +3,9 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <string>
 
-#include <fmt/format.h>
+#include "cli/streams.h"
 
 namespace vndf::cli {
 
@@ -16,10 +15,10 @@ class Progress {
     explicit Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
     ~Progress() { clear(); }
     void operator()(const std::string& what, double done) const {
-        if (shown_) fmt::print(stderr, "\r\033[K{:3.0f}%  {}", 100 * done, what), std::fflush(stderr);
+        if (shown_) remark("\r\033[K{:3.0f}%  {}", 100 * done, what);
     }
     void clear() const {
-        if (shown_) fmt::print(stderr, "\r\033[K"), std::fflush(stderr);
+        if (shown_) remark("\r\033[K");
     }
 
   private:

@@ -248,6 +248,12 @@ std::vector<Point> exhaustive_lobes(const Function& sampler) {
     return order;
 }
 
+std::uint32_t exhaustive_parts(const std::vector<const Function*>& samplers) {
+    std::size_t lobes = 0;
+    for (const Function* sampler : samplers) lobes = std::max(lobes, exhaustive_lobes(*sampler).size());
+    return passes * static_cast<std::uint32_t>(lobes);
+}
+
 runtime::ProgramOptions exhaustive_program(const std::vector<const Function*>& samplers) {
     runtime::ProgramOptions options;
     options.root = "kernels/batch/exhaustive.cl";

@@ -60,6 +60,9 @@ std::vector<const Function*> samplers_of(const std::vector<const Function*>& sel
 // The hard lobes of a sampler, u left out, in an order whose beginning is as varied as the whole.
 std::vector<Point> exhaustive_lobes(const Function& sampler);
 
+// In how many slices the walk can be parted so that none is empty.
+std::uint32_t exhaustive_parts(const std::vector<const Function*>& samplers);
+
 // A program for exhaust().
 runtime::ProgramOptions exhaustive_program(const std::vector<const Function*>& samplers);
 

@@ -1,0 +1,114 @@
+// The commands and options that the command line itself knows, with values to try them on.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "catch.h"
+#include "cli/command_line.h"
+
+namespace vndf::test {
+
+struct Values {
+    std::vector<std::string> good, wrong;  // as far as parsing tells, which looks at no file and no device
+};
+
+struct Option {
+    std::string name;  // "--seed"
+    bool flag;
+    Values values;                             // of an option that is no flag
+    std::vector<std::string> excludes, needs;  // names of others
+};
+
+struct Command {
+    std::string name;
+    bool takes_name;  // a word beside the options
+    std::vector<Option> options;
+};
+
+struct Commands {
+    std::vector<Option> common;  // before or behind every command
+    std::vector<Command> commands;
+};
+
+// By the option's name, or by that of its command and its own.
+inline const std::map<std::string, Values>& values() {
+    static const std::vector<std::string> no_count{"",
+                                                   "nan",
+                                                   "inf",
+                                                   "-1",
+                                                   "0",
+                                                   "1e309",
+                                                   "0x1000",
+                                                   " 64",
+                                                   "1024 ",
+                                                   "5x",
+                                                   "99.5",
+                                                   "1e4",
+                                                   "99999999999999999999"};
+    static const std::map<std::string, Values> table{
+        {"--device", {{"x", "PoCL", "a b"}, {""}}},
+        {"--math", {{"strict", "builtin", "native"}, {"Strict", "fast", "", "strict "}}},
+        {"--real", {{"float", "double"}, {"half", "Float", "32", ""}}},
+        {"--seed",
+         {{"0", "1", "18446744073709551615"},
+          {"-1", "1.5", "x", "", "18446744073709551616", "0x1", " 1", "nan", "inf", "1e309"}}},
+        {"--only", {{"vndf_ggx", "*", "dupuy2023/strict"}, {""}}},
+        {"--input", {{"-", "a.csv", "a b"}, {""}}},
+        {"--output", {{"-", "b.csv"}, {""}}},
+        {"--json", {{"-", "a.json"}, {""}}},
+        {"--junit", {{"-", "a.xml"}, {""}}},
+        {"--report", {{"a", "a/b"}, {""}}},
+        {"--compare", {{"a.json"}, {""}}},
+        {"eval --on", {{"device", "host", "reference"}, {"gpu", "", "hos"}}},
+        {"check --on", {{"device", "host"}, {"reference", ""}}},
+        {"--points", {{"1024", "16777216"}, no_count}},
+        {"--repetitions", {{"3", "1000"}, no_count}},
+        {"--minutes",
+         {{"0.001", "5", "1e6", ".5", "2.5e1"},
+          {"", "nan", "-nan", "inf", "-inf", "0", "-0", "-1", "1e309", "1e-309", "0x10", "5m", " 5", "1e7"}}},
+        {"--slice", {{"1/1", "3/10"}, {""}}}};
+    return table;
+}
+
+inline Option option_of(const std::string& command, const CLI::Option& option) {
+    Option result{option.get_name(), option.get_items_expected_max() == 0, {}, {}, {}};
+    for (const CLI::Option* other : option.get_excludes()) result.excludes.push_back(other->get_name());
+    for (const CLI::Option* other : option.get_needs()) result.needs.push_back(other->get_name());
+    if (result.flag) return result;
+    const auto found = values().contains(command + " " + result.name)
+                           ? values().find(command + " " + result.name)
+                           : values().find(result.name);
+    INFO("no values to try " << command << " " << result.name << " on: add them to support/options.h");
+    REQUIRE(found != values().end());
+    result.values = found->second;
+    return result;
+}
+
+inline std::vector<Option> options_of(const CLI::App& app) {
+    std::vector<Option> options;
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_positional()) options.push_back(option_of(app.get_name(), *option));
+    return options;
+}
+
+inline Commands commands() {
+    cli::CommandLine line;
+    Commands result{options_of(line.app()), {}};
+    for (const CLI::App* app : line.app().get_subcommands([](const CLI::App*) { return true; })) {
+        const auto all = app->get_options();
+        const bool takes_name =
+            std::any_of(all.begin(), all.end(), [](const CLI::Option* o) { return o->get_positional(); });
+        result.commands.push_back({app->get_name(), takes_name, options_of(*app)});
+    }
+    return result;
+}
+
+// Answered without parsing the rest.
+inline bool only_informs(const Option& option) {
+    return option.name == "--help" || option.name == "--version";
+}
+
+}  // namespace vndf::test
