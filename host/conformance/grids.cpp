@@ -196,6 +196,14 @@ std::vector<Point> returning_points() {
     return points;
 }
 
+// Directions wo of the lengths 1 - 2^-10 and 1 + 2^-10, within which the bounds of samplers hold.
+std::vector<Point> nearly_unit_points(const Function& sampler) {
+    std::vector<Point> points = random_points(sampler, 2048, 1);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (double& x : points[i].wo) x *= i % 2 ? 1 - 0x1p-10 : 1 + 0x1p-10;
+    return points;
+}
+
 // Indices of refraction next to 1, where refraction goes straight on and the half vector wo + eta wi is all but nothing:
 // refracted rays (refract_some) and, beside each, the way back of wo but for a few last bits, of float and of double.
 std::vector<Point> straight_points() {
@@ -220,6 +228,8 @@ std::vector<Point> straight_points() {
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
+    if (function.kind == Kind::sampler)
+        for (const Point& point : nearly_unit_points(function)) points.push_back(point);
     if (uses(function, {"wi_x"}))
         for (const Point& point : returning_points()) points.push_back(point);
     if (uses(function, {"u1"}))

@@ -22,9 +22,11 @@
 
 // --- Clamps of the public domain ---
 
-// alpha raised to 1e-8, below which a float direction cannot tell the lobe from a mirror.
+// alpha within [VNDF_ALPHA_MIN, VNDF_ALPHA_MAX]: below, a float direction cannot tell the lobe from a mirror; above, squares
+// would leave the range of numbers. NaN counts as the least.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
-    return alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
+    VNDF_REAL low = alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
+    return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;
 }
 
 // u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
@@ -33,9 +35,16 @@ VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
     return low < VNDF_U_MAX ? low : VNDF_U_MAX;
 }
 
-// Keeps a density or a pole finite: the comparison is false for +inf.
+// What arguments beyond the domain leave of a positive number, of a component and of a share: infinity and NaN count as the
+// largest number, as 0 and as 1. In the domain nothing is left for them to do.
 VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
+}
+VNDF_FN VNDF_REAL vndf_impl_component(VNDF_REAL x) {
+    return vndf_impl_abs(x) <= VNDF_REAL_MAX ? x : VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
+    return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
 }
 
 // a b for a, b >= 0, and the largest finite number where that is more: judged before the product is formed, so that
@@ -125,9 +134,20 @@ VNDF_FN VNDF_REAL4 vndf_impl_direction_pdf(struct vndf_impl_sample s) {
     return VNDF_MAKE4(s.x, s.y, s.z, s.pdf);
 }
 
+// What a sampler returns where its method is not defined, and where the length of wo has left the range of
+// numbers: the macroscopic normal, with density 0.
+VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sample m) {
+    struct vndf_impl_sample s;
+    s.x = defined ? m.x : VNDF_R(0.0);
+    s.y = defined ? m.y : VNDF_R(0.0);
+    s.z = defined ? m.z : VNDF_R(1.0);
+    s.pdf = defined ? m.pdf : VNDF_R(0.0);
+    return s;
+}
+
 // The stretched view direction v = (alpha_x wo.x, alpha_y wo.y, wo.z), of any length, in stable terms.
 struct vndf_impl_view {
-    VNDF_REAL alpha_x, alpha_y;  // raised
+    VNDF_REAL alpha_x, alpha_y;  // clamped
     VNDF_REAL x, y, z;           // v
     VNDF_REAL r, l;              // |v|, and the length of its tangential part
     VNDF_REAL rcp_l;             // 1 / l, 0 for l = 0
@@ -230,8 +250,9 @@ VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b
 // Accuracy: components within 4 units of 2^-24 (double: 2^-53).
 VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    return VNDF_MAKE3(VNDF_FMA(twice, wm.x, -wo.x), VNDF_FMA(twice, wm.y, -wo.y),
-                      VNDF_FMA(twice, wm.z, -wo.z));
+    return VNDF_MAKE3(vndf_impl_component(VNDF_FMA(twice, wm.x, -wo.x)),
+                      vndf_impl_component(VNDF_FMA(twice, wm.y, -wo.y)),
+                      vndf_impl_component(VNDF_FMA(twice, wm.z, -wo.z)));
 }
 
 // The refracted direction of wo through a facet wm.
@@ -244,17 +265,19 @@ VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
 //     towards the critical angle, as does its derivative.
 VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL c = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL rcp_eta = VNDF_R(1.0) / eta;
+    // Below 2^-64 (double: 2^-512) the contrast would be no number, and every ray is reflected.
+    int thick = eta > VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL rcp_eta = VNDF_R(1.0) / (thick ? eta : VNDF_R(1.0));
     // A dot product of rounded unit vectors can exceed 1.
     VNDF_REAL c1 = vndf_impl_min(c, VNDF_R(1.0));
     VNDF_REAL sin2 = VNDF_FMA(-c1, c1, VNDF_R(1.0));
     VNDF_REAL contrast = ((eta - VNDF_R(1.0)) * rcp_eta) * ((eta + VNDF_R(1.0)) * rcp_eta);
     VNDF_REAL cos2 = VNDF_FMA(sin2, contrast, c1 * c1);
-    int valid = c > VNDF_R(0.0) && eta > VNDF_R(0.0) && cos2 >= VNDF_R(0.0);
+    int valid = c > VNDF_R(0.0) && thick && cos2 >= VNDF_R(0.0);
     VNDF_REAL k = VNDF_FMA(c, rcp_eta, -VNDF_SQRT(cos2 > VNDF_R(0.0) ? cos2 : VNDF_R(0.0)));
-    VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
-    VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
-    VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
+    VNDF_REAL x = vndf_impl_component(VNDF_FMA(k, wm.x, -wo.x * rcp_eta));
+    VNDF_REAL y = vndf_impl_component(VNDF_FMA(k, wm.y, -wo.y * rcp_eta));
+    VNDF_REAL z = vndf_impl_component(VNDF_FMA(k, wm.z, -wo.z * rcp_eta));
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 
@@ -265,7 +288,7 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
 // Accuracy: relative error at most 4 units of 2^-24 (double: 2^-53) for the vectors as given.
 VNDF_FN VNDF_REAL vndf_jacobian_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL c = vndf_impl_abs(vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z));
-    return vndf_impl_finite(VNDF_R(0.25) / c);
+    return vndf_impl_finite(vndf_impl_bounded_quotient(VNDF_R(0.25), c));
 }
 
 // wo + eta wi of one component, in twice the precision.
@@ -305,7 +328,7 @@ VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL 
               cosine = vndf_impl_max(wi_h * rcp, VNDF_EPSILON * VNDF_EPSILON);
     VNDF_REAL ratio = eta * scale * rcp;
     VNDF_REAL jacobian = vndf_impl_bounded_product(ratio * cosine, ratio);
-    return largest > VNDF_R(0.0) ? jacobian : VNDF_REAL_MAX;
+    return largest > VNDF_R(0.0) ? vndf_impl_finite(jacobian) : VNDF_REAL_MAX;
 }
 
 #endif
