@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include "conformance/digest.h"
 #include "conformance/errors.h"
 #include "conformance/extremes.h"
 #include "support/catch.h"
@@ -120,4 +121,25 @@ TEST_CASE("with index 1 refraction goes straight on") {
                 if (!(std::abs(out[k][i] + rays.columns[k][i]) <= 4 * epsilon(real)))
                     FAIL_CHECK(hex_row(*find_function("vndf_refract"), rays.row(i)));
     }
+}
+
+TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
+    for (const Real real : reals)
+        for (const char* name :
+             {"vndf_ggx_g2", "vndf_ggx_g2_separable", "vndf_beckmann_g2", "vndf_beckmann_g2_separable"}) {
+            const Function& g2 = *find_function(name);
+            const Table rows = digest_inputs(g2, std::size_t{1} << 14, real);
+            Table exchanged = rows;
+            for (int k = 0; k < 3; ++k) std::swap(exchanged.columns[k], exchanged.columns[k + 3]);
+            const auto one = evaluate_on_host(real, name, rows),
+                       other = evaluate_on_host(real, name, exchanged);
+            std::size_t different = 0, positive = 0;
+            for (std::size_t i = 0; i < rows.rows(); ++i) {
+                different += one[0][i] != other[0][i];
+                positive += one[0][i] > 0;
+            }
+            INFO(name);
+            CHECK(different == 0);
+            CHECK(positive > rows.rows() / 4);
+        }
 }

@@ -73,6 +73,12 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
 }
 
+// Lambda of w or -w, whichever is above the horizon.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_upper_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
+    return vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a);
+}
+
 // Smith's Lambda.
 // Source: Heitz 2014, Equation 66, as e^(-a^2) I(a) / a, which does not cancel.
 // w: unit vector, local frame.
@@ -80,9 +86,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
 // Accuracy: 8 (1 + 2 q), q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
-    VNDF_REAL pole = s.hidden * s.gaussian / s.a;
-    VNDF_REAL upper = vndf_impl_finite(vndf_impl_abs(w.z) > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
+    VNDF_REAL upper = vndf_impl_finite(vndf_impl_beckmann_upper_lambda(w, alpha));
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
 
@@ -112,13 +116,15 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wo.z (1 + Lambda(wo)) = sigma(wo), positive for every wo that counts: wi's terms wait for it, since side by side
-    // the two would be packed (frame.h).
-    VNDF_REAL sigma = vndf_beckmann_sigma(wo, alpha);
-    VNDF_REAL2 alpha_i =
-        VNDF_MAKE2(sigma > VNDF_R(0.0) ? alpha.x : VNDF_R(1.0), sigma > VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL sum = VNDF_FMA(wo.z, vndf_beckmann_lambda(wi, alpha_i), sigma);
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_share(wo.z / sum) : VNDF_R(0.0);
+    // wi's terms wait for wo's, since side by side the two would be packed (frame.h).
+    VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
+    VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
+                                    lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
+    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), most = VNDF_R(0.25) * VNDF_REAL_MAX;
+    // The same bits for wo and wi exchanged: both sums are of equals.
+    VNDF_REAL sum = vndf_impl_min(lambda_o, most) + vndf_impl_min(lambda_i, most);
+    int above = vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0);
+    return above ? vndf_impl_share(VNDF_R(1.0) / (VNDF_R(1.0) + sum)) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
