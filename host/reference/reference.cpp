@@ -17,8 +17,8 @@ namespace {
 // NaN stays NaN.
 template <class R>
 R clamped_alpha(const R& alpha, Precision precision) {
-    const Real<R> least = precision == Precision::f32 ? Real<R>(1e-8f) : Real<R>(1e-8);
-    return alpha < least ? R(least) : alpha;
+    const Real<R> least = precision == Precision::f32 ? Real<R>(1e-8f) : Real<R>(1e-8), largest = 1e3;
+    return alpha < least ? R(least) : alpha > largest ? R(largest) : alpha;
 }
 
 template <class T>

@@ -225,14 +225,39 @@ Vec3<R> refract(const Vec3<R>& wo, const Vec3<R>& wm, const R& eta) {
     return {k * wm.x - wo.x / eta, k * wm.y - wo.y / eta, k * wm.z - wo.z / eta};
 }
 
-// Walter's Equation 17 with h = wo + eta wi, m = h / |h|: eta^2 |wi . m| / (wo . m + eta wi . m)^2.
+// Walter's Equation 17 with h = wo + eta wi, m = h / |h|: eta^2 |wi . m| / (wo . m + eta wi . m)^2, the denominator |h|^2.
+// Near eta = 1 and wi = -wo it is a matter of the last bits of the arguments: h is a rounded sum and the rest, and so are
+// the sums for wi . h.
+template <class R>
+struct Exact {
+    R sum, rest;  // |rest| <= half an ulp of the sum
+    void add(const R& x) {
+        const R s = sum + x, t = s - sum, error = (sum - (s - t)) + (x - t);
+        sum = s, rest += error;
+    }
+    void add_product(const R& x, const R& y) {
+        const R p = x * y;
+        add(p), rest += std::fma(x, y, -p);
+    }
+    R value() const { return sum + rest; }
+};
 template <class R>
 R jacobian_refract(const Vec3<R>& wo, const Vec3<R>& wi, const R& eta) {
-    using std::abs;
-    const Vec3<R> h{wo.x + eta * wi.x, wo.y + eta * wi.y, wo.z + eta * wi.z};
-    if (!(dot(h, h) > 0)) return R(std::numeric_limits<Real<R>>::infinity());
-    const Vec3<R> m = normalised(h);
-    return squared(R(eta / dot(h, m))) * abs(dot(wi, m));
+    using std::abs, std::sqrt;
+    const R o[3] = {wo.x, wo.y, wo.z}, i[3] = {wi.x, wi.y, wi.z};
+    R square = 0;
+    Exact<R> along{};
+    for (int k = 0; k < 3; ++k) {
+        Exact<R> h{o[k], 0};
+        h.add_product(eta, i[k]);
+        square += squared(h.value());
+        const R rest = (h.sum - h.value()) + h.rest;
+        along.add_product(i[k], h.value()), along.rest += i[k] * rest;
+    }
+    if (!(square > 0)) return R(std::numeric_limits<Real<R>>::infinity());
+    // Below the square of a unit |wi . m| is not told from 0.
+    const R cosine = abs(along.value()) / sqrt(square);
+    return squared(eta) / square * cosine;
 }
 
 }  // namespace vndf::reference

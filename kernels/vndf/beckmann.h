@@ -1,6 +1,6 @@
 // The Beckmann distribution (Gaussian slopes) with Smith masking: its terms and its densities.
 //
-// Conventions of vndf.h; the names of ggx.h. `alpha` is (alpha_x, alpha_y), each raised to 1e-8. Densities and terms
+// Conventions of vndf.h; the names of ggx.h. `alpha` is (alpha_x, alpha_y). Densities and terms
 // use the vectors literally, without normalising them.
 //
 // Symbols: l = |(alpha_x w.x, alpha_y w.y)|, a = w.z / l (the cotangent of the stretched polar angle),
@@ -19,14 +19,14 @@
 
 // A direction as the slopes of the stretched surface see it.
 struct vndf_impl_slopes {
-    VNDF_REAL a;         // |cot theta|, at most 2^60
+    VNDF_REAL a;         // |cot theta|, at most 2^60 (double: 2^120)
     VNDF_REAL hidden;    // I(|a|)
     VNDF_REAL gaussian;  // e^(-a^2)
 };
-// 2^60: beyond it a Gaussian is cut nowhere, or seen at a cosine that rounds to 0; l = 0 is normal incidence.
+// The limit: beyond it a Gaussian is cut nowhere, or seen at a cosine that rounds to 0; l = 0 is normal incidence.
 VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
     struct vndf_impl_slopes s;
-    VNDF_REAL limit = VNDF_R(1152921504606846976.0);
+    VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1.329227995784916e36) : VNDF_R(1152921504606846976.0);
     s.a = l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
     s.hidden = vndf_impl_ierfcx(s.a);
     s.gaussian = vndf_impl_expx2(s.a);
@@ -73,6 +73,12 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
 }
 
+// Lambda of w or -w, whichever is above the horizon.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_upper_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
+    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
+    return vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a);
+}
+
 // Smith's Lambda.
 // Source: Heitz 2014, Equation 66, as e^(-a^2) I(a) / a, which does not cancel.
 // w: unit vector, local frame.
@@ -80,9 +86,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
 // Accuracy: 8 (1 + 2 q), q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
-    VNDF_REAL pole = s.hidden * s.gaussian / s.a;
-    VNDF_REAL upper = vndf_impl_finite(vndf_impl_abs(w.z) > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
+    VNDF_REAL upper = vndf_impl_finite(vndf_impl_beckmann_upper_lambda(w, alpha));
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
 
@@ -94,7 +98,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
     struct vndf_impl_slopes s = vndf_impl_slopes_of(l, w.z);
-    return VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0)));
+    return vndf_impl_finite(VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0))));
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -103,7 +107,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 for w.z <= 0.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return w.z > VNDF_R(0.0) ? w.z / vndf_beckmann_sigma(w, alpha) : VNDF_R(0.0);
+    return w.z > VNDF_R(0.0) ? vndf_impl_share(w.z / vndf_beckmann_sigma(w, alpha)) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
@@ -112,13 +116,15 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wo.z (1 + Lambda(wo)) = sigma(wo), positive for every wo that counts: wi's terms wait for it, since side by side
-    // the two would be packed (frame.h).
-    VNDF_REAL sigma = vndf_beckmann_sigma(wo, alpha);
-    VNDF_REAL2 alpha_i =
-        VNDF_MAKE2(sigma > VNDF_R(0.0) ? alpha.x : VNDF_R(1.0), sigma > VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL sum = VNDF_FMA(wo.z, vndf_beckmann_lambda(wi, alpha_i), sigma);
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? wo.z / sum : VNDF_R(0.0);
+    // wi's terms wait for wo's, since side by side the two would be packed (frame.h).
+    VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
+    VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
+                                    lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
+    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), most = VNDF_R(0.25) * VNDF_REAL_MAX;
+    // The same bits for wo and wi exchanged: both sums are of equals.
+    VNDF_REAL sum = vndf_impl_min(lambda_o, most) + vndf_impl_min(lambda_i, most);
+    int above = vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0);
+    return above ? vndf_impl_share(VNDF_R(1.0) / (VNDF_R(1.0) + sum)) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -141,8 +147,12 @@ VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL l2_low = VNDF_FMA(VNDF_R(2.0), cross, squares);
     VNDF_REAL a2_low = (VNDF_FMA(-a2, l2, z2) + (VNDF_FMA(z, z, -z2) - a2 * l2_low)) / l2;
     struct vndf_impl_pair exponent;
-    exponent.head = q - a2;
-    exponent.tail = vndf_impl_sum_error(q, -a2, exponent.head) - a2_low;
+    VNDF_REAL head = q - a2, tail = vndf_impl_sum_error(q, -a2, head) - a2_low, sum = head + tail;
+    // Where a is large the tail may be more than a correction of the exponential (math.h).
+    int beyond = vndf_impl_abs(tail) > VNDF_R(1e-2);
+    exponent.head = beyond ? sum : head;
+    exponent.tail =
+        beyond ? vndf_impl_min(vndf_impl_max(tail - (sum - head), VNDF_R(-1e-2)), VNDF_R(1e-2)) : tail;
     return exponent;
 }
 

@@ -69,11 +69,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map
 // folds, and stratified u do not stay stratified; jakob2014 is monotone.
-// wo: unit vector, local frame, wo.z >= 0; only its direction matters. The method is not defined below the horizon:
+// wo: unit vector, local frame, wo.z >= 0. The method is not defined below the horizon:
 //     (0, 0, 1) with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the slope in the plane of incidence, u.y its sign and the slope across; clamped to [2^-33, 1 - 2^-24] (double:
-//     [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the slope in the plane of incidence, u.y its sign and the slope across.
 // return: unit vector wm, wm.z >= 0, with density vndf_beckmann_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2; asserted by
 //     `clvndf check`.

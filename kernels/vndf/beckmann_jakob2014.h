@@ -18,11 +18,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF
 }
 
 // A visible normal by inversion of the visible slope distribution.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. At wo = -z, where nothing is
+// wo: unit vector, local frame, anywhere on the sphere. At wo = -z, where nothing is
 //     visible: a unit vector on the horizon with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// alpha: in [1e-8, 1e3] each.
 // u: u.x the slope in the plane of incidence, from the side of wo (u.x = 0) to the edge of the visible; u.y the slope
-//     across. Clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+//     across.
 // return: unit vector wm, wm.z >= 0, with density vndf_beckmann_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 16; asserted by
 //     `clvndf check`.

@@ -145,7 +145,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
     int edge = vndf_impl_slope_is_edge(i, 0);
     VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? visible / sine : -x, 0, 1).mass;
-    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? cdf : VNDF_R(1.0);
+    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 
 // Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
@@ -215,7 +215,7 @@ VNDF_FN VNDF_REAL vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i, i
 // Source: Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014, whose equation in erf x
 //     is solved here in x, in forms that do not cancel.
 // cos_theta: in [-1, 1].
-// u1: probability, clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// u1: probability.
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
 // Accuracy: 16 (1 + condition number).
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
@@ -224,7 +224,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL
     VNDF_REAL u = vndf_impl_u(u1);
     int edge = vndf_impl_slope_is_edge(i, vndf_impl_slope_is_upper(u));
     VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
-    return cos_theta > VNDF_R(-1.0) ? x : -VNDF_REAL_MAX;
+    return cos_theta > VNDF_R(-1.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
 
 // --- What the samplers share ---
@@ -259,13 +259,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     VNDF_REAL ts = t * scale, ys = y * scale;
     VNDF_REAL gx = alpha_x * vndf_impl_difference_of_products(ts, ex, ys, ey);
     VNDF_REAL gy = alpha_y * vndf_impl_difference_of_products(ts, ey, -ys, ex);
-    VNDF_REAL length = VNDF_SQRT(VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, scale * scale)));
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, scale * scale)), length = VNDF_SQRT(length2);
     VNDF_REAL rcp = VNDF_R(1.0) / length, rise = length / scale;
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
     m.pdf = vndf_impl_finite(weight * rise / (alpha_x * alpha_y) * rise * rise);
-    return m;
+    return vndf_impl_where(length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX, m);
 }
 
 // The normal of a slope in the plane of incidence and of one of y across it, with its visible density.

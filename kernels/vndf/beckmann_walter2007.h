@@ -20,9 +20,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, 
 }
 
 // A normal with density proportional to D(wm) wm.z, whatever the view direction.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the polar angle, u.y the azimuth before the stretch; clamped to [2^-33, 1 - 2^-24] (double:
-//     [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the polar angle, u.y the azimuth before the stretch.
 // return: unit vector wm, wm.z > 0, with density vndf_beckmann_pdf_wm_walter2007(wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 16; asserted by
 //     `clvndf check`.

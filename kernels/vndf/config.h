@@ -234,6 +234,7 @@ static inline VNDF_REAL vndf_impl_as_real(VNDF_INT i) {
 
 // The clamps of the public domain (see vndf.h).
 #define VNDF_ALPHA_MIN VNDF_R(1e-8)
+#define VNDF_ALPHA_MAX VNDF_R(1e3)
 #if VNDF_DOUBLE
 #define VNDF_U_MIN 2.7105054312137610850e-20  // 2^-65
 #define VNDF_U_MAX 0.99999999999999988898     // 1 - 2^-53

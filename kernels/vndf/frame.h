@@ -11,16 +11,22 @@
 #if VNDF_DOUBLE
 #define VNDF_REAL_MAX 1.79769313486231570815e+308
 #define VNDF_EPSILON 1.11022302462515654042e-16  // 2^-53
+#define VNDF_IMPL_ROOT_LEAST \
+    7.45834073120020674329e-155  // 2^-512: 1 over the root of what is no number any more
 #else
 #define VNDF_REAL_MAX 3.40282346638528859812e+38f
 #define VNDF_EPSILON 5.96046447753906250000e-08f  // 2^-24
+#define VNDF_IMPL_ROOT_LEAST \
+    5.42101086242752217004e-20f  // 2^-64: 1 over the root of what is no number any more
 #endif
 
 // --- Clamps of the public domain ---
 
-// alpha raised to 1e-8, below which a float direction cannot tell the lobe from a mirror.
+// alpha within [VNDF_ALPHA_MIN, VNDF_ALPHA_MAX]: below, a float direction cannot tell the lobe from a mirror; above, squares
+// would leave the range of numbers. NaN counts as the least.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
-    return alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
+    VNDF_REAL low = alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
+    return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;
 }
 
 // u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
@@ -29,9 +35,29 @@ VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
     return low < VNDF_U_MAX ? low : VNDF_U_MAX;
 }
 
-// Keeps a density or a pole finite: the comparison is false for +inf.
+// What arguments beyond the domain leave of a positive number, of a component and of a share: infinity and NaN count as the
+// largest number, as 0 and as 1. In the domain nothing is left for them to do.
 VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
+}
+VNDF_FN VNDF_REAL vndf_impl_component(VNDF_REAL x) {
+    return vndf_impl_abs(x) <= VNDF_REAL_MAX ? x : VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
+    return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
+}
+
+// a b for a, b >= 0, and the largest finite number where that is more: judged before the product is formed, so that
+// nothing overflows, not even under compiler options that know no infinity.
+VNDF_FN VNDF_REAL vndf_impl_bounded_product(VNDF_REAL a, VNDF_REAL b) {
+    int beyond = (a * VNDF_IMPL_ROOT_LEAST) * (b * VNDF_IMPL_ROOT_LEAST) >= VNDF_R(1.0);
+    return beyond ? VNDF_REAL_MAX : a * b;
+}
+
+// a / b for a, b >= 0 in the same way, also for b = 0.
+VNDF_FN VNDF_REAL vndf_impl_bounded_quotient(VNDF_REAL a, VNDF_REAL b) {
+    int beyond = a * VNDF_IMPL_ROOT_LEAST >= vndf_impl_min(b, VNDF_R(1.0)) / VNDF_IMPL_ROOT_LEAST;
+    return beyond ? VNDF_REAL_MAX : a / b;
 }
 
 // --- Products and sums with one rounding or little more ---
@@ -108,9 +134,20 @@ VNDF_FN VNDF_REAL4 vndf_impl_direction_pdf(struct vndf_impl_sample s) {
     return VNDF_MAKE4(s.x, s.y, s.z, s.pdf);
 }
 
+// What a sampler returns where its method is not defined, and where the length of wo has left the range of
+// numbers: the macroscopic normal, with density 0.
+VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sample m) {
+    struct vndf_impl_sample s;
+    s.x = defined ? m.x : VNDF_R(0.0);
+    s.y = defined ? m.y : VNDF_R(0.0);
+    s.z = defined ? m.z : VNDF_R(1.0);
+    s.pdf = defined ? m.pdf : VNDF_R(0.0);
+    return s;
+}
+
 // The stretched view direction v = (alpha_x wo.x, alpha_y wo.y, wo.z), of any length, in stable terms.
 struct vndf_impl_view {
-    VNDF_REAL alpha_x, alpha_y;  // raised
+    VNDF_REAL alpha_x, alpha_y;  // clamped
     VNDF_REAL x, y, z;           // v
     VNDF_REAL r, l;              // |v|, and the length of its tangential part
     VNDF_REAL rcp_l;             // 1 / l, 0 for l = 0
@@ -213,8 +250,9 @@ VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b
 // Accuracy: components within 4 units of 2^-24 (double: 2^-53).
 VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    return VNDF_MAKE3(VNDF_FMA(twice, wm.x, -wo.x), VNDF_FMA(twice, wm.y, -wo.y),
-                      VNDF_FMA(twice, wm.z, -wo.z));
+    return VNDF_MAKE3(vndf_impl_component(VNDF_FMA(twice, wm.x, -wo.x)),
+                      vndf_impl_component(VNDF_FMA(twice, wm.y, -wo.y)),
+                      vndf_impl_component(VNDF_FMA(twice, wm.z, -wo.z)));
 }
 
 // The refracted direction of wo through a facet wm.
@@ -227,17 +265,19 @@ VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
 //     towards the critical angle, as does its derivative.
 VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL c = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL rcp_eta = VNDF_R(1.0) / eta;
+    // Below 2^-64 (double: 2^-512) the contrast would be no number, and every ray is reflected.
+    int thick = eta > VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL rcp_eta = VNDF_R(1.0) / (thick ? eta : VNDF_R(1.0));
     // A dot product of rounded unit vectors can exceed 1.
     VNDF_REAL c1 = vndf_impl_min(c, VNDF_R(1.0));
     VNDF_REAL sin2 = VNDF_FMA(-c1, c1, VNDF_R(1.0));
     VNDF_REAL contrast = ((eta - VNDF_R(1.0)) * rcp_eta) * ((eta + VNDF_R(1.0)) * rcp_eta);
     VNDF_REAL cos2 = VNDF_FMA(sin2, contrast, c1 * c1);
-    int valid = c > VNDF_R(0.0) && eta > VNDF_R(0.0) && cos2 >= VNDF_R(0.0);
+    int valid = c > VNDF_R(0.0) && thick && cos2 >= VNDF_R(0.0);
     VNDF_REAL k = VNDF_FMA(c, rcp_eta, -VNDF_SQRT(cos2 > VNDF_R(0.0) ? cos2 : VNDF_R(0.0)));
-    VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
-    VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
-    VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
+    VNDF_REAL x = vndf_impl_component(VNDF_FMA(k, wm.x, -wo.x * rcp_eta));
+    VNDF_REAL y = vndf_impl_component(VNDF_FMA(k, wm.y, -wo.y * rcp_eta));
+    VNDF_REAL z = vndf_impl_component(VNDF_FMA(k, wm.z, -wo.z * rcp_eta));
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 
@@ -248,31 +288,47 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
 // Accuracy: relative error at most 4 units of 2^-24 (double: 2^-53) for the vectors as given.
 VNDF_FN VNDF_REAL vndf_jacobian_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL c = vndf_impl_abs(vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z));
-    return vndf_impl_finite(VNDF_R(0.25) / c);
+    return vndf_impl_finite(vndf_impl_bounded_quotient(VNDF_R(0.25), c));
 }
 
-// |d wm / d wi| of refraction, for the half vector h = wo + eta wi.
+// wo + eta wi of one component, in twice the precision.
+VNDF_FN struct vndf_impl_pair vndf_impl_eta_sum(VNDF_REAL o, VNDF_REAL eta, VNDF_REAL i) {
+    VNDF_REAL product = eta * i, sum = o + product;
+    VNDF_REAL low = vndf_impl_sum_error(o, product, sum) + VNDF_FMA(eta, i, -product);
+    struct vndf_impl_pair h;
+    h.head = sum + low;
+    h.tail = vndf_impl_sum_error(sum, low, h.head);  // where the sum cancels, low may be the larger
+    return h;
+}
+
+// |d wm / d wi| of refraction, for wm along h = wo + eta wi.
 // Source: Walter et al. 2007, Equation 17 (i = wo, o = wi, eta_o / eta_i = eta); as wo . m + eta wi . m = |h|
-//     for m = h / |h|, it is eta^2 |wi . h| / |h|^3.
+//     for m = h / |h|, it is eta^2 |wi . m| / |h|^2.
 // wo, wi: unit vectors on either side of the facet, any frame.
-// eta: index of refraction on wi's side over the index on wo's side, > 0.
-// return: >= 0, per steradian over steradian; the largest finite number where h is 0 (eta = 1, wi = -wo: no
-//     facet is defined there).
-// Accuracy: relative error at most 16 units of 2^-24 (double: 2^-53) for the arguments as given.
+// eta: index of refraction on wi's side over the index on wo's side, > 0; 1 and anything near it included.
+// return: > 0, per steradian over steradian: by how much the direction of h turns with wi, for every pair. A pair with
+//     (wo . h)(wi . h) >= 0 is refracted by no facet and has this value all the same: give it no weight. A |wi . m| below
+//     2^-48 (double: 2^-106) counts as that, so that nothing that vndf_refract returns has the density 0. The largest
+//     finite number where h is 0 (eta = 1, wi = -wo: no facet is defined there).
+// Accuracy: relative error at most 16 units of 2^-24 (double: 2^-53) for the arguments as given, where |wi . m| is above
+//     one unit; below, the rounding of wi has left nothing of it.
 VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL eta) {
-    VNDF_REAL hx = VNDF_FMA(eta, wi.x, wo.x), hy = VNDF_FMA(eta, wi.y, wo.y), hz = VNDF_FMA(eta, wi.z, wo.z);
+    struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x), y = vndf_impl_eta_sum(wo.y, eta, wi.y),
+                          z = vndf_impl_eta_sum(wo.z, eta, wi.z);
+    // h times a power of two, since its square may underflow.
+    VNDF_REAL largest =
+        vndf_impl_max(vndf_impl_max(vndf_impl_abs(x.head), vndf_impl_abs(y.head)), vndf_impl_abs(z.head));
+    VNDF_REAL scale = vndf_impl_scale(largest), hx = x.head * scale, hy = y.head * scale, hz = z.head * scale;
     VNDF_REAL h = VNDF_SQRT(VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)));
-    // wi . h = wi . wo + eta wi . wi, in twice the precision: it vanishes at grazing transmission.
-    struct vndf_impl_pair cross = vndf_impl_dot_pair(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z);
-    // Never the second choice: it keeps LLVM from packing the two alike sums, after which the kernel stays scalar.
-    int finite = cross.head + cross.tail <= VNDF_REAL_MAX;
-    VNDF_REAL x = finite ? wi.x : h, y = finite ? wi.y : h, z = finite ? wi.z : h;
-    struct vndf_impl_pair norm = vndf_impl_dot_pair(x, y, z, x, y, z);
-    VNDF_REAL product = eta * norm.head, sum = product + cross.head;
-    VNDF_REAL low = VNDF_FMA(eta, norm.head, -product) + vndf_impl_sum_error(product, cross.head, sum);
-    VNDF_REAL wi_h = vndf_impl_abs(sum + (low + VNDF_FMA(eta, norm.tail, cross.tail)));
-    VNDF_REAL ratio = eta / h;
-    return vndf_impl_finite(h > VNDF_R(0.0) ? ratio * ratio * (wi_h / h) : VNDF_REAL_MAX);
+    // wi . h in twice the precision: it vanishes at grazing transmission.
+    struct vndf_impl_pair dot = vndf_impl_dot_pair(wi.x, wi.y, wi.z, hx, hy, hz);
+    VNDF_REAL low = VNDF_FMA(wi.x, x.tail, VNDF_FMA(wi.y, y.tail, wi.z * z.tail));
+    VNDF_REAL wi_h = vndf_impl_abs(dot.head + VNDF_FMA(low, scale, dot.tail));
+    VNDF_REAL rcp = VNDF_R(1.0) / (largest > VNDF_R(0.0) ? h : VNDF_R(1.0)),
+              cosine = vndf_impl_max(wi_h * rcp, VNDF_EPSILON * VNDF_EPSILON);
+    VNDF_REAL ratio = eta * scale * rcp;
+    VNDF_REAL jacobian = vndf_impl_bounded_product(ratio * cosine, ratio);
+    return largest > VNDF_R(0.0) ? vndf_impl_finite(jacobian) : VNDF_REAL_MAX;
 }
 
 #endif

@@ -1,7 +1,7 @@
 // The GGX distribution (Trowbridge-Reitz) with Smith masking: its terms and its densities.
 //
 // Conventions of vndf.h. Every function takes vectors, never cosines: a D that sees only wm.z loses all
-// digits below alpha = 1e-2. `alpha` is (alpha_x, alpha_y), each raised to 1e-8. Densities and terms use the
+// digits below alpha = 1e-2. `alpha` is (alpha_x, alpha_y). Densities and terms use the
 // vectors literally, without normalising them. Symbols: l = |(alpha_x w.x, alpha_y w.y)|, t = sqrt(l^2 +
 // w.z^2).
 //
@@ -81,8 +81,9 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 //     integral of D max(w . m, 0).
 // Accuracy: 8, also below the horizon.
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return VNDF_R(0.5) *
-           vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    VNDF_REAL twice_sigma =
+        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    return vndf_impl_finite(VNDF_R(0.5) * twice_sigma);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -93,7 +94,7 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
-    return w.z > VNDF_R(0.0) ? VNDF_R(2.0) * w.z / twice_sigma : VNDF_R(0.0);
+    return w.z > VNDF_R(0.0) ? vndf_impl_share(VNDF_R(2.0) * w.z / twice_sigma) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
@@ -109,8 +110,9 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     int swap = wo.z > wi.z;
     VNDF_REAL low = swap ? wi.z : wo.z, high = swap ? wo.z : wi.z;
     VNDF_REAL t_low = swap ? i.r : o.r, t_high = swap ? o.r : i.r;
-    VNDF_REAL g2 = VNDF_R(2.0) * low / VNDF_FMA(t_high, low / high, t_low);
-    return low > VNDF_R(0.0) ? g2 : VNDF_R(0.0);
+    VNDF_REAL g2 =
+        VNDF_R(2.0) * low / VNDF_FMA(t_high, low / (high > VNDF_R(0.0) ? high : VNDF_R(1.0)), t_low);
+    return low > VNDF_R(0.0) ? vndf_impl_share(g2) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -244,7 +246,9 @@ VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, 
     slope.sin_psi = VNDF_FMA(s, c, -cosine * sine);
     // cos psi = cosine c + s sine; its product with the conjugate is (c - s)(c + s), for opposite signs.
     VNDF_REAL direct = VNDF_FMA(cosine, c, s * sine);
-    VNDF_REAL conjugate = up * (VNDF_R(2.0) * c - up) / VNDF_FMA(cosine, c, -s * sine);
+    // The denominator is 0 where nothing is visible: a normal on the horizon.
+    VNDF_REAL other = VNDF_FMA(cosine, c, -s * sine);
+    VNDF_REAL conjugate = up * (VNDF_R(2.0) * c - up) / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (s < VNDF_R(0.0)) != (c < VNDF_R(0.0));
     slope.cos_psi = opposite ? conjugate : direct;
     return slope;
@@ -253,7 +257,7 @@ VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, 
 // The inverse of vndf_ggx_slope_cdf.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 4.2.
 // cos_theta: in [-1, 1].
-// u1: probability, clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// u1: probability.
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
 // Accuracy: 16 times (1 + condition number).
 VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
@@ -286,16 +290,6 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     VNDF_REAL pdf = VNDF_1_PI * (weight * length / (h2 * alpha_x * alpha_y)) * ratio;
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
-}
-
-// What a sampler returns where its method is not defined: the macroscopic normal, with density 0.
-VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sample m) {
-    struct vndf_impl_sample s;
-    s.x = defined ? m.x : VNDF_R(0.0);
-    s.y = defined ? m.y : VNDF_R(0.0);
-    s.z = defined ? m.z : VNDF_R(1.0);
-    s.pdf = defined ? m.pdf : VNDF_R(0.0);
-    return s;
 }
 
 #endif

@@ -63,7 +63,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
               gz = VNDF_FMA(height, n.z, alpha * hz);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, gz * gz));
     VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
-    int defined = length2 > VNDF_R(0.0);
+    int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
     struct vndf_impl_sample m;
     m.x = defined ? gx * rcp : n.x;
     m.y = defined ? gy * rcp : n.y;
@@ -75,11 +75,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
 }
 
 // A visible normal about n, in the frame that wo and n are given in.
-// wo: unit vector, any orientation; only its direction matters. At wo = -n, where nothing is visible: a unit
+// wo: unit vector, any orientation. At wo = -n, where nothing is visible: a unit
 //     vector with density 0.
 // n: unit macroscopic normal, any, n = -z included.
-// alpha: scalar, in [1e-8, 1e3]; raised to 1e-8.
-// u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// alpha: scalar, in [1e-8, 1e3].
+// u: u.x the azimuth of the cap, u.y its height.
 //     The azimuth jumps where n.z changes sign.
 // return: unit vector wm with wm . n >= 0 to rounding, density vndf_ggx_pdf_wm_benyoub2024(wo, n, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,

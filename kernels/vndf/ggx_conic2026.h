@@ -86,14 +86,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(o.z), VNDF_R(0.0625) * VNDF_EPSILON);
     o.z = above ? height : o.z;
     // Only the direction of wo counts: the length that the mirror kept is divided out.
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)));
+    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
     o.x *= rcp;
     o.y *= rcp;
     o.z *= rcp;
     VNDF_REAL unit_n = n * rcp;
     VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / unit_n) * ratio / (alpha_x * alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return o;
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
 
 // --- The lobe of one wo and alpha ---
@@ -102,7 +102,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
 // its members are internals.
 struct vndf_ggx_conic2026 {
     VNDF_REAL wo_x, wo_y, wo_z;
-    VNDF_REAL alpha_x, alpha_y;  // raised
+    VNDF_REAL alpha_x, alpha_y;  // clamped
     VNDF_REAL e0x, e0y, e0z, e1x, e1y, e1z, e2x, e2y, e2z;
     VNDF_REAL s0, s1, s2, n, c0, c2;
     VNDF_REAL p, q, p2, q2, co_p2, co_q2;  // co_p2 = 1 - p2
@@ -168,8 +168,8 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
 }
 
 // The lobe of wo and alpha: all that does not depend on u.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// wo: unit vector, local frame, anywhere on the sphere.
+// alpha: in [1e-8, 1e3] each.
 // return: a struct for vndf_ggx_sample_wi_conic2026_lobe, _lobe_with_pdf and vndf_ggx_pdf_wi_conic2026_lobe.
 VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 lobe;
@@ -261,11 +261,11 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe,
 }
 
 // A reflection of wo above the horizon.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. For wo.z <= 0 the plain cap. At
+// wo: unit vector, local frame, anywhere on the sphere. For wo.z <= 0 the plain cap. At
 //     wo = -z, where nothing is visible: a unit vector with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: a point of the unit disk, u.x its azimuth, u.y its squared radius; clamped to [2^-33, 1 - 2^-24] (double: [2^-65,
-//     1 - 2^-53]). The map is continuous in u and preserves area: stratified points stay stratified.
+// alpha: in [1e-8, 1e3] each.
+// u: a point of the unit disk, u.x its azimuth, u.y its squared radius. The map is continuous in u and preserves area:
+//     stratified points stay stratified.
 // return: unit vector wi, wi.z > 0 for wo.z > 0, with density vndf_ggx_pdf_wi_conic2026(wo, wi, alpha). For reflection
 //     alone: refraction needs a plain visible normal.
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2, behind the
@@ -307,7 +307,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_conic_invert(struct vndf_ggx_conic2026 l, struct vn
 
 // The u at which vndf_ggx_sample_wi_conic2026 gives wi.
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// alpha: in [1e-8, 1e3] each.
 // return: (u.x, u.y) in [0, 1]. A wi below the horizon, which no u gives, counts as one on it; (0, 0) for wi = -wo.
 // Accuracy: 99 % within 4 units of 2^-24 (1 + condition number) (1.1 found) where wi is the mirror image of wo to
 //     within rounding.
@@ -340,8 +340,8 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
     int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
     VNDF_REAL u1 = above ? front.x : vndf_impl_turn(ox, oy);
-    u2 = vndf_impl_min(vndf_impl_max(above ? front.y : u2, VNDF_R(0.0)), VNDF_R(1.0));
-    return VNDF_MAKE2(defined ? u1 : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
+    u2 = vndf_impl_share(vndf_impl_max(above ? front.y : u2, VNDF_R(0.0)));
+    return VNDF_MAKE2(defined ? vndf_impl_share(u1) : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
 }
 
 // --- One alpha ---
@@ -381,7 +381,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.
 // wo: as there. At normal incidence the azimuth 0 counts as the one of wo.
-// alpha: in [1e-8, 1e3]; raised to 1e-8.
+// alpha: in [1e-8, 1e3].
 // u, return: as there.
 // Accuracy: as there.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {

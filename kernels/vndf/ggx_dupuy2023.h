@@ -27,10 +27,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
 }
 
 // A visible normal by the spherical cap.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. At wo = -z, where nothing
+// wo: unit vector, local frame, anywhere on the sphere. At wo = -z, where nothing
 //     is visible: a unit vector on the horizon with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
 //     behind the surface 16; asserted by `clvndf check`.

@@ -51,14 +51,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf
     VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, gx, -wo.x), oy = VNDF_FMA(twice, gy, -wo.y),
               oz = VNDF_FMA(twice, h.z, -wo.z);
-    VNDF_REAL rcp_o = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(ox, ox, VNDF_FMA(oy, oy, oz * oz)));
+    VNDF_REAL o2 = VNDF_FMA(ox, ox, VNDF_FMA(oy, oy, oz * oz)), rcp_o = VNDF_R(1.0) / VNDF_SQRT(o2);
     o.x = ox * rcp_o;
     o.y = oy * rcp_o;
     o.z = oz * rcp_o;
     VNDF_REAL ratio = g2 / h2, n = (front ? n_front : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
     VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return o;
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
 
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
@@ -73,10 +73,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
 }
 
 // A reflection of wo by the bounded cap: the visible normal and the mirror step in one.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. For wo.z <= 0 the plain
+// wo: unit vector, local frame, anywhere on the sphere. For wo.z <= 0 the plain
 //     cap. At wo = -z, where nothing is visible: a unit vector with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8. For min(alpha) >= 1 the bound is valid but loose.
-// u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each. For min(alpha) >= 1 the bound is valid but loose.
+// u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,

@@ -57,10 +57,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023_polygon(VNDF_REAL3 wo, VND
 }
 
 // A reflection of wo by the cap under the polygon bound.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. For wo.z <= 0 the plain
+// wo: unit vector, local frame, anywhere on the sphere. For wo.z <= 0 the plain
 //     cap. At wo = -z, where nothing is visible: a unit vector with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the azimuth of the cap, u.y its height; clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023_polygon(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,

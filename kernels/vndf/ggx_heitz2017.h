@@ -34,11 +34,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(VNDF_REAL3 wo, VNDF_REAL
 }
 
 // A visible normal by half disks.
-// wo: unit vector, local frame, wo.z >= 0; only its direction matters. The method is not defined below the
+// wo: unit vector, local frame, wo.z >= 0. The method is not defined below the
 //     horizon: (0, 0, 1) with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the squared radius, u.y the angle and with it the half disk; clamped to [2^-33, 1 - 2^-24] (double:
-//     [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the squared radius, u.y the angle and with it the half disk.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2;
 //     asserted by `clvndf check`.

@@ -29,8 +29,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(VNDF_REAL3 wo, VNDF_REAL
     // t_i / sqrt(P), so that it stays of order 1 behind the surface.
     VNDF_REAL root = VNDF_SQRT(minus * VNDF_R(0.5) * (half_p_plus + q_r));
     VNDF_REAL t_i = cap.sqrt_p * root;
-    VNDF_REAL conjugate =
-        half_p_plus * VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r) / VNDF_FMA(t, sine, -t_i * z);
+    // The denominator is 0 where nothing is visible: a normal on the horizon.
+    VNDF_REAL other = VNDF_FMA(t, sine, -t_i * z);
+    VNDF_REAL conjugate = half_p_plus * VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r) /
+                          (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (t < VNDF_R(0.0)) != (z < VNDF_R(0.0));
     VNDF_REAL hz = opposite ? conjugate : VNDF_FMA(t, sine, t_i * z);
     VNDF_REAL along = VNDF_FMA(t_i, sine, -t * z);
@@ -42,11 +44,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(VNDF_REAL3 wo, VNDF_REAL
 }
 
 // A visible normal by the cross section.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. At wo = -z, where nothing
+// wo: unit vector, local frame, anywhere on the sphere. At wo = -z, where nothing
 //     is visible: a unit vector on the horizon with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the azimuth of the disc, u.y its squared radius; clamped to [2^-33, 1 - 2^-24] (double:
-//     [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the azimuth of the disc, u.y its squared radius.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map in units of 2^-24 (1 + condition number): 99th percentile at most 2,
 //     behind the surface 16; asserted by `clvndf check`.

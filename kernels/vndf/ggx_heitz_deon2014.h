@@ -75,11 +75,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(VNDF_REAL3 wo, VNDF
 
 // A visible normal by the published slope sampler: approximate. Its fit of the conditional distribution is
 // cut at |z| = 7.256 and off by up to 5.4e-4 in probability; `clvndf check` measures and reports this bias.
-// wo: unit vector, local frame, wo.z >= 0; only its direction matters. The method is not defined below the
+// wo: unit vector, local frame, wo.z >= 0. The method is not defined below the
 //     horizon: (0, 0, 1) with density 0.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
-// u: u.x the slope in the plane of incidence, u.y the one across; clamped to [2^-33, 1 - 2^-24] (double:
-//     [2^-65, 1 - 2^-53]).
+// alpha: in [1e-8, 1e3] each.
+// u: u.x the slope in the plane of incidence, u.y the one across.
 // return: unit vector wm, wm.z >= 0. vndf_ggx_pdf_wm is only near its density: the _with_pdf form has it.
 // Accuracy: angle to the published map in units of 2^-24 (1 + condition number): 99th percentile at most 16;
 //     asserted by `clvndf check`.
@@ -93,7 +92,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VND
 }
 
 // A visible normal by slopes, with the exact conditional inverse.
-// wo: unit vector, local frame, anywhere on the sphere; only its direction matters. At wo = -z, where nothing
+// wo: unit vector, local frame, anywhere on the sphere. At wo = -z, where nothing
 //     is visible: a unit vector on the horizon with density 0.
 // alpha, u: as above.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).

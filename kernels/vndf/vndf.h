@@ -8,16 +8,21 @@
 //   wo      the known direction (towards the viewer), wi the sampled one, wm the microfacet normal: unit
 //           vectors that point away from the surface. Papers differ: their omega_i or V is often our wo.
 //   frame   local, z the macroscopic normal; the world-space sampler takes the normal n instead.
-//   alpha   (alpha_x, alpha_y), the parameters of the distribution, not a perceptual roughness. Valid in
-//           [1e-8, 1e3]; raised to 1e-8, below which the surface is a mirror to working precision.
+//   alpha   (alpha_x, alpha_y), the parameters of the distribution, not a perceptual roughness. Clamped to
+//           [1e-8, 1e3]: below, the surface is a mirror to working precision.
 //   u       two uniform numbers in [0, 1], clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]), the
 //           ends being singular. Each sampler says what its u.x and u.y mean.
 //   pdf_wm, pdf_wi   per steradian of the normal, per steradian of the reflected direction. The measure is in
 //           the name: never mix them without vndf_jacobian_reflect or vndf_jacobian_refract.
 //   sample_*_with_pdf   (x, y, z, density): the density from the sampler's own terms, accurate where
 //           evaluating at the rounded direction is not (alpha below 1e-2, grazing directions).
-//   Samplers depend on the direction of wo only; terms and densities take vectors literally.
-//   Out of the domain: documented finite values, density 0. NaN only if NaN came in.
+// What is promised of which arguments (asserted by `clvndf check`)
+//   wo of samplers   only its direction counts. The bounds of a function hold for |wo| within 2^-10 of 1; from
+//           1e-3 to 1e3 the result is a unit vector.
+//   other vectors    are taken literally; bounds are for vectors that are unit but for rounding.
+//   out of the domain, where a function says what it returns: that, with density 0.
+//   anything finite, of any size: a finite result. Inside the domain no value on the way to it overflows or is
+//           divided by 0, so that this does not hang on infinities.
 //
 // Precision and policy: see config.h (VNDF_REAL, VNDF_MATH).
 #ifndef VNDF_H

@@ -196,14 +196,49 @@ std::vector<Point> returning_points() {
     return points;
 }
 
+// Directions wo of the lengths 1 - 2^-10 and 1 + 2^-10, within which the bounds of samplers hold.
+std::vector<Point> nearly_unit_points(const Function& sampler) {
+    std::vector<Point> points = random_points(sampler, 2048, 1);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (double& x : points[i].wo) x *= i % 2 ? 1 - 0x1p-10 : 1 + 0x1p-10;
+    return points;
+}
+
+// Indices of refraction next to 1, where refraction goes straight on and the half vector wo + eta wi is all but nothing:
+// refracted rays (refract_some) and, beside each, the way back of wo but for a few last bits, of float and of double.
+std::vector<Point> straight_points() {
+    std::vector<Point> points;
+    for (const double step : {0., 0x1p-53, 0x1p-52, 0x1p-40, 0x1p-24, 0x1p-23, 0x1p-20, 0x1p-12, 1e-4})
+        for (const double eta : {1 + step, 1 - step})
+            for (const double cos_theta : {1., .9, .5, 1e-3})
+                for (const Stretched& normal : {Stretched{1, 0}, {.9, 2}, {.5, -1}, {.01, 3}})
+                    for (const double bit : {0x1p-23, 0x1p-52}) {
+                        Point point =
+                            make_point(direction(cos_theta, .7), {.5, .5}, normal, {0, 0, 1}, {.5, .5}, eta);
+                        points.push_back(point);
+                        for (int k = 0; k < 3; ++k)
+                            point.wi[k] =
+                                -point.wo[k] * (1 + bit * static_cast<double>((points.size() >> k) % 5 - 2));
+                        points.push_back(point);
+                    }
+    return points;
+}
+
 }  // namespace
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
+    if (function.kind == Kind::sampler)
+        for (const Point& point : nearly_unit_points(function)) points.push_back(point);
     if (uses(function, {"wi_x"}))
         for (const Point& point : returning_points()) points.push_back(point);
     if (uses(function, {"u1"}))
         for (const Point& point : silhouette_points()) points.push_back(point);
+    if (uses(function, {"eta"})) {
+        std::vector<Point> straight = straight_points();
+        refract_some(function, straight);
+        points.insert(points.end(), straight.begin(), straight.end());
+    }
     return distinct(function, points);
 }
 
@@ -220,6 +255,12 @@ class Random {
     double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
     bool chance(double probability) { return uniform() < probability; }
 
+    // Some within any distance of 1, down to the last bit of double.
+    double eta() {
+        if (!chance(0.2)) return uniform(0.4, 2.5);
+        const double side = uniform(-1, 1);
+        return 1 + std::copysign(std::exp2(-1 - 52 * std::abs(side)), side);
+    }
     double cosine() {
         const double sign = chance(0.3) ? -1 : 1;
         if (chance(0.1)) return sign * (1 - log_uniform(1e-7, 1));  // towards the pole
@@ -255,7 +296,7 @@ std::vector<Point> random_points(const Function& function, std::size_t count, st
         const Direction n = world ? direction(random.cosine(), random.uniform(-pi, pi)) : Direction{0, 0, 1};
         const Stretched normal = random.normal();
         const std::array<double, 2> u{random.u(), random.u()};
-        const double eta = random.chance(0.2) ? 1 + random.log_uniform(1e-4, 1) : random.uniform(0.4, 2.5);
+        const double eta = random.eta();
         points.push_back(make_point(wo, {alpha, world ? alpha : other}, normal, n, u, eta));
     }
     refract_some(function, points);

@@ -13,11 +13,12 @@ namespace {
 enum class Unit { plain, exponent, condition };
 
 // Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function.
-// Geometry, the marginals of the slopes (differences, roots) and the functions about a world-space normal
+// Directions, the marginals of the slopes (differences, roots) and the functions about a world-space normal
 // (whose products n . w are rounded) are judged by their condition.
 Unit unit_of(const Function& function) {
-    if (function.kind == Kind::geometry || function.kind == Kind::inverse ||
-        column(function, "cos_theta") >= 0 || column(function, "n_x") >= 0)
+    const bool direction = function.kind == Kind::geometry && function.result != "VALUE";
+    if (direction || function.kind == Kind::inverse || column(function, "cos_theta") >= 0 ||
+        column(function, "n_x") >= 0)
         return Unit::condition;
     return has_exponent(function.ndf) ? Unit::exponent : Unit::plain;
 }
@@ -44,6 +45,19 @@ double cancellation(const RowReader& reader, const double* row) {
     const Direction o = reader.wo(row), m = reader.wm(row);
     const double terms = std::abs(o[0] * m[0]) + std::abs(o[1] * m[1]) + std::abs(o[2] * m[2]);
     return std::max(1.0, terms / std::abs(dot(o, m)));
+}
+
+// Whether so little is left of the cosine between wi and the facet along h = wo + eta wi, in the Jacobian of their
+// refraction, that the rounding of wi decides: less than a unit.
+bool grazes(const Function& function, const RowReader& reader, const double* row, double jacobian,
+            double unit) {
+    const int column_of_eta = column(function, "eta");
+    if (column_of_eta < 0 || function.result != "VALUE") return false;
+    const Direction o = reader.wo(row), i = reader.wi(row);
+    const double eta = row[column_of_eta];
+    double square = 0;
+    for (int k = 0; k < 3; ++k) square += std::pow(std::fma(eta, i[k], o[k]), 2);
+    return jacobian * square / (eta * eta) < unit;
 }
 
 // Whether the reference's map takes its u back to the direction of this row, and that is the mirror image of wo. It is not
@@ -99,6 +113,7 @@ double error_at(const Judge& j, std::size_t i) {
     const double lost = cancellation(j.reader, row.data());
     if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
     if (at_edge(j.function, row.data(), j.real)) return skip;
+    if (grazes(j.function, j.reader, row.data(), static_cast<double>(exact[0]), unit)) return skip;
     if (j.function.kind == Kind::inverse) {
         const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
         if (!is_inverse(j.function, j.reader, row.data(), u, precision(j.real))) return skip;

@@ -70,10 +70,12 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     }
     errors.sign.add(std::isfinite(pdf) && pdf >= 0 ? 0 : 1, i);
     if (1 + cos_theta_o < 1e-15) return;  // wo = -n: no distribution
+    // The separate density takes wo literally, which is no unit vector here.
+    const bool unit_wo = std::abs(length(reader.wo(row.data())) - 1) < 0x1p-12;
     // A reflection does not leave the support of its density, whatever the rounding of its direction. Its half vector may
     // leave the upper side, within rounding; and above alpha = 2 the stretch makes more of that.
     const auto [x, y] = reader.alpha(row.data());
-    if (s.sampler.result == "WI" && pdf > 0 && reader.wo(row.data())[2] + s.fused[2][i] > 0 &&
+    if (unit_wo && s.sampler.result == "WI" && pdf > 0 && reader.wo(row.data())[2] + s.fused[2][i] > 0 &&
         std::max(x, y) <= 2)
         errors.lost.add(s.separate[0][i] > 0 ? 0 : 1, i);
 
@@ -98,7 +100,7 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
     // An approximate sampler returns the density of its map, not the registered one; at small alpha a rounded
     // direction has no density worth comparing.
     const auto [alpha_x, alpha_y] = reader.alpha(row.data());
-    if (s.sampler.method == Method::approximate || std::min(alpha_x, alpha_y) < 1e-3) return;
+    if (!unit_wo || s.sampler.method == Method::approximate || std::min(alpha_x, alpha_y) < 1e-3) return;
     // The density at the rounded direction differs by what the rounding of the map and of the direction moves it.
     const std::vector<double> at = s.at_samples.row(i);
     if (at_edge(s.density, at.data(), s.real)) return;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "conformance/judge/digest.h"
+#include "conformance/judge/extremes.h"
 #include "conformance/inputs/grids.h"
 #include "conformance/judge/known_bias.h"
 #include "conformance/judge/lobes.h"
@@ -134,6 +135,8 @@ class Run {
         for (const Function* function : selected) {
             options_.progress(function->name, work_done_ / work_total_);
             report_.functions.push_back({function, findings(*function)});
+            for (Finding& finding : check_extremes(evaluator_, *function, pointwise_))
+                report_.functions.back().findings.push_back(std::move(finding));
             work_done_ += work(*function);
         }
         if (math_ == runtime::Math::strict) compare_bits(selected);

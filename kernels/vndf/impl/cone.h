@@ -105,30 +105,30 @@ VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(struct vndf_impl_view v) {
 // Source: ggx_conic2026.md: t mu^2 / ((1 + e^2 + f^2) sqrt((mu + A_x)(mu + A_y))).
 // w: unit vector, local frame, anywhere on the sphere. For w.z <= 0 every visible normal reflects above the horizon:
 //     vndf_ggx_sigma.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// alpha: in [1e-8, 1e3] each.
 // return: in [0, sigma(w)], per unit area of the macrosurface: sigma times the integral of vndf_ggx_pdf_wi over wi.z > 0.
 // Accuracy: 16 (9.2 found), asserted by `clvndf check`; double against quadrature along the horizon: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha));
+    return vndf_impl_finite(VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha)));
 }
 
 // The probability that the reflection of wo about a visible normal lies above the horizon.
 // Source: ggx_conic2026.md: sigma_vis / sigma.
 // w: unit vector, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// alpha: in [1e-8, 1e3] each.
 // return: in [0, 1]; 1 for w.z <= 0.
 // Accuracy: 16 (8.3 found).
 VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
     struct vndf_impl_cone c = vndf_impl_cone_of(v);
     VNDF_REAL p = VNDF_R(2.0) * vndf_impl_cone_share(c) / (VNDF_R(1.0) + c.sz);
-    return v.z > VNDF_R(0.0) ? vndf_impl_min(p, VNDF_R(1.0)) : VNDF_R(1.0);
+    return v.z > VNDF_R(0.0) ? vndf_impl_share(p) : VNDF_R(1.0);
 }
 
 // The density of the reflection of wo about a visible normal, given that it lies above the horizon: D / (4 sigma_vis).
 // Source: ggx_conic2026.md; it is vndf_ggx_pdf_wi over the reflection probability.
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each; raised to 1e-8.
+// alpha: in [1e-8, 1e3] each.
 // return: per steradian of wi; 0 for wi.z <= 0 above the surface. For wo.z <= 0 the same as vndf_ggx_pdf_wi.
 // Accuracy: 24 (16.2 found) for the vectors as given: 16 of D, the rest of sigma_vis. Below alpha = 1e-2 the rounding of
 //     wi moves the density by more than that: use the sampler's _with_pdf form there.

@@ -1,0 +1,145 @@
+// What vndf.h promises of every function, on the host build; `clvndf check` asserts the same of a device.
+#include <cmath>
+#include <random>
+
+#include "conformance/judge/digest.h"
+#include "conformance/judge/errors.h"
+#include "conformance/judge/extremes.h"
+#include "support/catch.h"
+
+using namespace vndf;
+using namespace vndf::conformance;
+
+namespace {
+
+constexpr Real reals[] = {Real::f32, Real::f64};
+
+double rounded(Real real, double x) {
+    return real == Real::f32 ? static_cast<float>(x) : x;
+}
+
+// A table of the named function's inputs, empty.
+Table empty_table(const std::string& name) {
+    Table table;
+    table.columns.resize(find_function(name)->inputs.size());
+    return table;
+}
+void add_row(Table& table, const std::vector<double>& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].push_back(row[i]);
+}
+std::vector<std::vector<double>> evaluate_on_host(Real real, const std::string& name, const Table& table) {
+    runtime::HostEvaluator host(Math::strict, real);
+    return evaluate(host, *find_function(name), table);
+}
+
+class Random {
+  public:
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
+    Direction direction() { return conformance::direction(uniform(-1, 1), uniform(-3.14159, 3.14159)); }
+
+  private:
+    std::mt19937_64 engine_{1};
+};
+
+}  // namespace
+
+TEST_CASE("finite arguments of any size give finite results, and wo of any length a unit vector") {
+    for (const Real real : reals)
+        for (const Math math : {Math::strict, Math::builtin}) {
+            runtime::HostEvaluator host(math, real);
+            PointwiseOptions options;
+            options.random_points = std::size_t{1} << 13;
+            options.math = math;
+            for (const Function& function : functions())
+                for (const Finding& finding : check_extremes(host, function, options)) {
+                    INFO(function.name << ", " << to_string(real) << ": " << finding.check << ", at "
+                                       << finding.worst);
+                    CHECK(finding.count > 0);
+                    CHECK(finding.passed());
+                }
+        }
+}
+
+TEST_CASE("nothing that vndf_refract returns has the Jacobian 0, whatever the index") {
+    Random random;
+    for (const Real real : reals) {
+        Table rays = empty_table("vndf_refract");
+        for (int i = 0; i < 40000; ++i) {
+            const Direction o = random.direction(), m = random.direction();
+            const double sign = o[0] * m[0] + o[1] * m[1] + o[2] * m[2] < 0 ? -1 : 1;
+            const double least = real == Real::f32 ? -24 : -53,
+                         c = std::abs(o[0] * m[0] + o[1] * m[1] + o[2] * m[2]);
+            // Next to 1, anything, and the critical angle, where nothing of the transmitted cosine is left.
+            const double eta = i % 3 == 0   ? 1 + (i % 2 ? 1 : -1) * std::exp2(random.uniform(least, -1))
+                               : i % 3 == 1 ? random.uniform(0.3, 3)
+                                            : std::sqrt((1 - c) * (1 + c)) * (1 + (i % 8) * std::exp2(least));
+            std::vector<double> row;
+            for (const double x : o) row.push_back(rounded(real, x));
+            for (const double x : m) row.push_back(rounded(real, sign * x));
+            row.push_back(rounded(real, i % 30 == 0 ? 1 : eta));
+            add_row(rays, row);
+        }
+        const auto refracted = evaluate_on_host(real, "vndf_refract", rays);
+        Table pairs = empty_table("vndf_jacobian_refract");
+        for (std::size_t i = 0; i < rays.rows(); ++i) {
+            const std::vector<double> row = rays.row(i);
+            const double x = refracted[0][i], y = refracted[1][i], z = refracted[2][i];
+            if (x != 0 || y != 0 || z != 0) add_row(pairs, {row[0], row[1], row[2], x, y, z, row[6]});
+        }
+        CHECK(pairs.rows() > 20000);
+        const auto jacobians = evaluate_on_host(real, "vndf_jacobian_refract", pairs)[0];
+        for (std::size_t i = 0; i < pairs.rows(); ++i)
+            if (!(jacobians[i] > 0))
+                FAIL_CHECK(hex_row(*find_function("vndf_jacobian_refract"), pairs.row(i)));
+    }
+    // A pair whose cosine is 0 to the last bit: wi is across wo + eta wi.
+    for (const Real real : reals) {
+        Table pair = empty_table("vndf_jacobian_refract");
+        add_row(pair, {-0.5, 0, std::sqrt(0.75), 1, 0, 0, 0.5});
+        CHECK(evaluate_on_host(real, "vndf_jacobian_refract", pair)[0][0] > 0);
+    }
+}
+
+TEST_CASE("with index 1 refraction goes straight on") {
+    Random random;
+    for (const Real real : reals) {
+        Table rays = empty_table("vndf_refract");
+        for (int i = 0; i < 10000; ++i) {
+            std::vector<double> row;
+            const Direction o = random.direction(), m = random.direction();
+            const double sign = o[0] * m[0] + o[1] * m[1] + o[2] * m[2] < 0 ? -1 : 1;
+            for (const double x : o) row.push_back(rounded(real, x));
+            for (const double x : m) row.push_back(rounded(real, sign * x));
+            row.push_back(1);
+            add_row(rays, row);
+        }
+        const auto out = evaluate_on_host(real, "vndf_refract", rays);
+        for (std::size_t i = 0; i < rays.rows(); ++i)
+            for (int k = 0; k < 3; ++k)
+                if (!(std::abs(out[k][i] + rays.columns[k][i]) <= 4 * epsilon(real)))
+                    FAIL_CHECK(hex_row(*find_function("vndf_refract"), rays.row(i)));
+    }
+}
+
+TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
+    for (const Real real : reals)
+        for (const char* name :
+             {"vndf_ggx_g2", "vndf_ggx_g2_separable", "vndf_beckmann_g2", "vndf_beckmann_g2_separable"}) {
+            const Function& g2 = *find_function(name);
+            const Table rows = digest_inputs(g2, std::size_t{1} << 14, real);
+            Table exchanged = rows;
+            for (int k = 0; k < 3; ++k) std::swap(exchanged.columns[k], exchanged.columns[k + 3]);
+            const auto one = evaluate_on_host(real, name, rows),
+                       other = evaluate_on_host(real, name, exchanged);
+            std::size_t different = 0, positive = 0;
+            for (std::size_t i = 0; i < rows.rows(); ++i) {
+                different += one[0][i] != other[0][i];
+                positive += one[0][i] > 0;
+            }
+            INFO(name);
+            CHECK(different == 0);
+            CHECK(positive > rows.rows() / 4);
+        }
+}
