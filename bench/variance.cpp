@@ -11,6 +11,7 @@
 
 #include "conformance/inputs/points.h"
 #include "runtime/evaluator.h"
+#include "splitmix64.h"
 
 namespace vndf::bench {
 namespace {
@@ -57,21 +58,13 @@ std::uint32_t sobol(std::size_t index, bool second) {
     return bits;
 }
 
-// SplitMix64: Steele, Lea & Flood, Fast Splittable Pseudorandom Number Generators, 2014.
-std::uint64_t hash(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return x ^ (x >> 31);
-}
-
 // Nested uniform scramble: Owen, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences, 1995. Each bit is flipped or not by
 // a hash of those above it, with a 1 in front that tells their number.
 std::uint32_t owen(std::uint32_t bits, std::uint64_t seed) {
     std::uint32_t flips = 0;
     for (int bit = 0; bit < 32; ++bit) {
         const std::uint64_t above = (std::uint64_t{1} << 32 | bits) >> (bit + 1);
-        flips |= static_cast<std::uint32_t>(hash(seed ^ above) & 1) << bit;
+        flips |= static_cast<std::uint32_t>(splitmix64(seed ^ above) & 1) << bit;
     }
     return bits ^ flips;
 }

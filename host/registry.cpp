@@ -21,6 +21,17 @@ constexpr struct {
     operator Support() const { return Support::upper; }
 } UPPER;
 
+// Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function. Directions, the
+// marginals of the slopes (differences, roots) and the functions about a world-space normal (whose products n . w are
+// rounded) are judged by their condition.
+Unit unit_of(const Function& f) {
+    const auto takes = [&](const char* scalar) {
+        return std::find(f.inputs.begin(), f.inputs.end(), scalar) != f.inputs.end();
+    };
+    if (f.result != "VALUE" || takes("cos_theta") || takes("n_x")) return Unit::condition;
+    return has_exponent(f.ndf) ? Unit::exponent : Unit::plain;
+}
+
 Function with_pdf(Function sampler) {
     sampler.name += "_with_pdf";
     sampler.outputs.push_back("pdf");
@@ -40,7 +51,8 @@ std::vector<Function> read_functions() {
     f.arguments = #arguments_, f.signature = VNDF_ARGUMENTS_##arguments_; \
     f.result = #result_, f.kind = kind_, f.ndf = ndf_;                    \
     f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                    \
-    f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};
+    f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};               \
+    f.unit = unit_of(f);
 #define VNDF_ERRORS(in_float, in_double) f.float_bounds.error = in_float, f.double_bounds.error = in_double;
 #define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, in_float, in_double, source) \
     {                                                                                                       \
@@ -100,8 +112,8 @@ const std::vector<Function>& functions() {
     return all;
 }
 
-const std::vector<Lobe>& lobe_functions() {
-    static const std::vector<Lobe> all = {
+const std::vector<LobeFunction>& lobe_functions() {
+    static const std::vector<LobeFunction> all = {
 #define VNDF_LOBE(name, ndf, arguments, type, source) {#name, VNDF_ARGUMENTS_##arguments, type, source, ndf},
 #include "../kernels/registry.def"
     };
@@ -163,6 +175,18 @@ std::string_view to_string(Kind kind) {
             return "inverse";
         case Kind::geometry:
             return "geometry";
+    }
+    return {};
+}
+
+std::string_view to_string(Unit unit) {
+    switch (unit) {
+        case Unit::plain:
+            return "eps";
+        case Unit::exponent:
+            return "eps (1 + 2 q)";
+        case Unit::condition:
+            return "eps (1 + condition number)";
     }
     return {};
 }

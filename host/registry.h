@@ -11,6 +11,9 @@ enum class Ndf { ggx, beckmann, any };
 enum class Kind { sampler, density, term, inverse, geometry };
 enum class Method { exact, approximate };
 enum class Domain { sphere, upper };
+// What a relative error is counted in, beside epsilon: 1, 1 + 2 q with the exponent q of a Beckmann function, or 1 + the
+// condition number.
+enum class Unit { plain, exponent, condition };
 enum class Support { upper, visible, mirrored, cap, above };
 
 // What `strict` promises, in units of 2^-24 (float) or 2^-53 (double); registry.def says of what.
@@ -49,17 +52,18 @@ struct Function {
     std::string sampler;               // of an inverse: whose directions it takes
 
     Bounds float_bounds, double_bounds;
+    Unit unit = Unit::plain;
 };
 
 // Every function, in the registry's order; each sampler is followed by its _with_pdf form.
 const std::vector<Function>& functions();
 
 // What sets up a lobe for functions that take one: no function of numbers alone.
-struct Lobe {
+struct LobeFunction {
     std::string name, signature, type, source;
     Ndf ndf = Ndf::any;
 };
-const std::vector<Lobe>& lobe_functions();
+const std::vector<LobeFunction>& lobe_functions();
 
 // The function of exactly this name, or nullptr.
 const Function* find_function(std::string_view name);
@@ -75,5 +79,6 @@ std::string_view to_string(Kind);
 std::string_view to_string(Method);
 std::string_view to_string(Domain);
 std::string_view to_string(Support);
+std::string_view to_string(Unit);  // "eps (1 + 2 q)"
 
 }  // namespace vndf

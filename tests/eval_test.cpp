@@ -296,13 +296,24 @@ TEST_CASE("list --json holds every registered function with its scalars") {
     const Outcome run = clvndf("list --json");
     REQUIRE(run.status == 0);
     const auto json = nlohmann::json::parse(run.out);
-    REQUIRE(json.size() == functions().size());
-    for (std::size_t i = 0; i < json.size(); ++i) {
+    REQUIRE(json.size() == functions().size() + lobe_functions().size());
+    for (std::size_t i = 0; i < functions().size(); ++i) {
         const Function& f = functions()[i];
         CHECK(json[i]["name"] == f.name);
         CHECK(json[i]["inputs"] == f.inputs);
         CHECK(json[i]["outputs"] == f.outputs);
-        CHECK(json[i].contains(f.kind == Kind::sampler ? "density" : "bound"));
+        CHECK(json[i].contains("density") == (f.kind == Kind::sampler));
+        CHECK(json[i].contains("support") == (f.kind == Kind::density));
+        for (const char* real : {"float", "double"})
+            CHECK(json[i]["bounds"][real].contains(f.kind == Kind::sampler ? "front" : "error"));
+    }
+    for (std::size_t i = 0; i < lobe_functions().size(); ++i) {
+        const auto& lobe = json[functions().size() + i];
+        CHECK(lobe["name"] == lobe_functions()[i].name);
+        CHECK(lobe["kind"] == "lobe");
+        const Outcome evaluated = clvndf("eval " + lobe_functions()[i].name + " --on host --input /dev/null");
+        CHECK(evaluated.status == 2);
+        CHECK_THAT(evaluated.err, ContainsSubstring("not numbers"));
     }
 }
 

@@ -26,6 +26,11 @@ struct Eval {
 
 const Function& named_function(const std::string& name) {
     if (const Function* function = find_function(name)) return *function;
+    for (const LobeFunction& lobe : lobe_functions())
+        if (lobe.name == name)
+            throw InputError(fmt::format(
+                "'{}' returns a {}, not numbers: evaluate a function that takes it (see clvndf list)", name,
+                lobe.type));
     throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)", name,
                                  fmt::join(nearest_names(name), ", ")));
 }

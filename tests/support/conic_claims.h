@@ -9,24 +9,15 @@
 #include <vector>
 
 #include "reference/distribution.h"
+#include "splitmix64.h"
 
 namespace vndf::claims {
 
-// A stream of numbers of its own for each block (SplitMix64).
-class Random {
+// A stream of numbers of its own for each block.
+class Random : public SplitMix64 {
   public:
-    explicit Random(std::uint64_t block) : state_(block * 0x9e3779b97f4a7c15u + 1) {}
-    std::uint64_t bits() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    explicit Random(std::uint64_t block) : SplitMix64(block * splitmix64_step + 1) {}
     double log_uniform(double low, double high) { return low * std::pow(high / low, uniform()); }
-
-  private:
-    std::uint64_t state_;
 };
 
 // A view from above the surface: half of them grazing; alphas over the domain, a third of the lobes isotropic.

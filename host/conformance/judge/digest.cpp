@@ -12,6 +12,7 @@
 #include "conformance/judge/errors.h"
 #include "conformance/inputs/grids.h"
 #include "parallel.h"
+#include "splitmix64.h"
 
 #ifdef __SSE__
 #include <xmmintrin.h>
@@ -26,18 +27,12 @@ using Columns = std::vector<std::vector<double>>;
 
 // ---- inputs
 
-// The random numbers of one row: splitmix64 (Steele, Lea, Flood 2014).
-class Random {
+// The random numbers of one row.
+class Random : public SplitMix64 {
   public:
-    explicit Random(std::uint64_t row) : state_(row << 32) {}
+    explicit Random(std::uint64_t row) : SplitMix64(row << 32) {}
 
-    std::uint64_t bits() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        return z ^ (z >> 31);
-    }
-    double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    using SplitMix64::uniform;
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
     bool chance(double probability) { return uniform() < probability; }
     // In [2^low, 2^high), every binade alike: nearly log-uniform, without exp or log.

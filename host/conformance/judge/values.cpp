@@ -9,20 +9,6 @@
 namespace vndf::conformance {
 namespace {
 
-// In which unit a function's relative error is judged beside epsilon.
-enum class Unit { plain, exponent, condition };
-
-// Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function.
-// Directions, the marginals of the slopes (differences, roots) and the functions about a world-space normal
-// (whose products n . w are rounded) are judged by their condition.
-Unit unit_of(const Function& function) {
-    const bool direction = function.kind == Kind::geometry && function.result != "VALUE";
-    if (direction || function.kind == Kind::inverse || column(function, "cos_theta") >= 0 ||
-        column(function, "n_x") >= 0)
-        return Unit::condition;
-    return has_exponent(function.ndf) ? Unit::exponent : Unit::plain;
-}
-
 // The exponent of the Beckmann function: of its normal or slope, or of the angle of its direction.
 double exponent(const Function& function, const RowReader& reader, const double* row) {
     const auto alpha = reader.alpha(row);
@@ -80,7 +66,6 @@ struct Judge {
     const Table& table;
     const std::vector<std::vector<double>>& results;
     Real real;
-    Unit unit;
     RowReader reader;
 };
 
@@ -119,7 +104,7 @@ double error_at(const Judge& j, std::size_t i) {
         if (!is_inverse(j.function, j.reader, row.data(), u, precision(j.real))) return skip;
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
-    if (j.unit == Unit::condition) {
+    if (j.function.unit == Unit::condition) {
         const double condition = absolute_condition(
             j.function, reference::find_evaluation<double>(j.function.name), row.data(), precision(j.real));
         if (j.function.kind == Kind::inverse && !is_settled(condition)) return skip;
@@ -127,7 +112,7 @@ double error_at(const Judge& j, std::size_t i) {
     }
     if (size < smallest) return std::numeric_limits<double>::infinity();
     double allowance = lost;
-    if (j.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
+    if (j.function.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
     return settle(static_cast<double>(difference / size), unit * allowance);
 }
 
@@ -149,7 +134,7 @@ Errors judged_errors(const Judge& judge) {
 Errors value_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
     const Real real = evaluator.input_real();
     const auto results = evaluate(evaluator, function, table);
-    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    const Judge judge{function, table, results, real, RowReader(function)};
     return real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
 }
 
@@ -158,7 +143,7 @@ std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function&
     const Real real = evaluator.input_real();
     const Table table = pointwise_table(function, real, options);
     const auto results = evaluate(evaluator, function, table);
-    const Judge judge{function, table, results, real, unit_of(function), RowReader(function)};
+    const Judge judge{function, table, results, real, RowReader(function)};
     const Errors errors =
         real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
     Errors bad;
@@ -167,14 +152,13 @@ std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function&
         for (const auto& column : results)
             bad.add(std::isfinite(column[i]) && (!density || column[i] >= 0) ? 0 : 1, i);
 
-    const char* const units[] = {"eps", "eps (1 + 2q)", "eps (1 + cond)"};
     const double limit = bounds_of(function, real).error * slack(options.math);
     // Where rounding has erased the half vector, the differences that measure the condition of an inverse lie beyond the
     // clamps of u and show none of it: its few worst rows say nothing.
     const bool inverse = function.kind == Kind::inverse;
     return {make_finding(inverse ? "pointwise, p99" : "pointwise, maximum",
                          inverse ? errors.percentile(99) : errors.max(), limit,
-                         units[static_cast<int>(judge.unit)], errors, function, table),
+                         std::string(to_string(function.unit)), errors, function, table),
             make_finding(density ? "finite and not negative" : "finite", bad.max(), 0, "rows", bad, function,
                          table)};
 }
