@@ -6,7 +6,8 @@
 
 VNDF_FN VNDF_REAL3 vndf_bench_cap_with_basis(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL alpha, VNDF_REAL2 u) {
     VNDF_REAL sign = n.z < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0), a = VNDF_R(-1.0) / (sign + n.z);
-    VNDF_REAL b = n.x * n.y * a, tx = VNDF_FMA(sign * n.x, n.x * a, VNDF_R(1.0)), ty = sign * b, tz = -sign * n.x;
+    VNDF_REAL b = n.x * n.y * a, tx = VNDF_FMA(sign * n.x, n.x * a, VNDF_R(1.0)), ty = sign * b,
+              tz = -sign * n.x;
     VNDF_REAL bx = b, by = VNDF_FMA(n.y, n.y * a, sign), bz = -n.y;
     VNDF_REAL3 local_wo = VNDF_MAKE3(VNDF_FMA(wo.x, tx, VNDF_FMA(wo.y, ty, wo.z * tz)),
                                      VNDF_FMA(wo.x, bx, VNDF_FMA(wo.y, by, wo.z * bz)),

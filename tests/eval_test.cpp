@@ -161,7 +161,7 @@ TEST_CASE("bad input is one line that says what was found, where, and what is al
         {"eval vndf_reflect --on reference --real double --math native", reflect_header, float_only},
         {"check --quick --only vndf_reflect --math native --real double", "", float_only},
         {"check --digest --math native --real double", "", float_only},
-        {"check --exhaustive --math native --real double", "", float_only},
+        {"check --exhaustive --math native --real double", "", "--real double: "},
         {"eval vndf_reflect --on host --device x", reflect_header, "--device 'x': --on host uses no device"},
         {"eval vndf_reflect --on reference --device x", reflect_header,
          "--device 'x': --on reference uses no device"},

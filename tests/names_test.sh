@@ -6,8 +6,10 @@
 #
 #   names_test.sh KERNELS_DIR [HEADER]      HEADER: one more header (absolute path), read as if it were included
 set -eu
-kernels=$1 extra=${2-}
+kernels=${1-} extra=${2-}
+[ -f "$kernels/vndf/vndf.h" ] || { echo "names_test.sh: no headers in '$kernels/vndf'" && exit 2; }
 others=$(dirname "$0")/support/foreign_names.txt
+headers=$(find "$kernels/vndf" -name "*.h")
 command -v g++ >/dev/null || { echo "no g++" && exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -47,13 +49,13 @@ for real in float double; do
 done
 
 : >"$work/none"
-cat "$kernels"/vndf/*.h "$kernels"/vndf/impl/*.h $extra | sed 's://.*::' |
+cat $headers $extra | sed 's://.*::' |
     sed -nE 's/^ *(typedef .*[ *]|(struct|union|enum|class|namespace|using) +)([A-Za-z_0-9]+) *[;{=].*/\3/p' |
     sort -u >"$work/types"
 judge "$work/none" "$work/types" 3 "types"
 
 # Each name in the headers, comments and strings apart; as name() where a parenthesis follows.
-cat "$kernels"/vndf/*.h $extra | sed 's://.*::; s/"[^"]*"//g' | grep -oE '[A-Za-z_0-9]+ *\(?' |
+cat $headers $extra | sed 's://.*::; s/"[^"]*"//g' | grep -oE '[A-Za-z_0-9]+ *\(?' |
     sed 's/ *($/()/; s/ *$//' | grep -E '^[A-Za-z_]' | sort -u >"$work/used"
 grep -v "^#" "$others" | tr -s ' ' '\n' | sort -u >"$work/others"
 [ "$(wc -l <"$work/used")" -ge 500 ] && [ "$(wc -l <"$work/others")" -ge 300 ] ||

@@ -4,7 +4,8 @@
 #
 #   opencl_lint_test.sh KERNELS_DIR
 set -eu
-kernels=$1
+kernels=${1-}
+[ -f "$kernels/vndf/vndf.h" ] || { echo "opencl_lint_test.sh: no headers in '$kernels/vndf'" && exit 2; }
 clang=
 for candidate in clang clang-19 clang-18 clang-17 clang-16 clang-15 clang-14; do
     command -v $candidate >/dev/null && clang=$candidate && break

@@ -7,8 +7,14 @@
 #
 # PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is compiled here. Each further argument is
 # one compiler with its options ("clang++ -O3"); default: all 16. --quick: 2^12 inputs a function instead of 2^20.
-# Exit status: 0 the same bits, 1 not, 77 the same bits as far as could be tried: a compiler is missing.
+# Exit status: 0 the same bits, 1 not, 2 nothing to compare: wrong arguments or nothing built; 77 the same bits as far as
+# could be tried: a compiler is missing.
 set -u
+
+cannot() {
+    echo "same_bits.sh: $*"
+    exit 2
+}
 
 quick=
 digests=digests.txt
@@ -17,9 +23,16 @@ if [ "${1-}" = --quick ]; then
     digests=digests_quick.txt
     shift
 fi
+[ $# -ge 3 ] || cannot "usage: same_bits.sh [--quick] PROJECT BUILD WORK [COMPILER -OPTION...]..."
 project=$1 build=$2 work=$3
 shift 3
-mkdir -p "$work" || exit 1
+committed=$project/tests/data/$digests
+libraries="$build/host/libclvndf_host.a $build/host/reference/libclvndf_reference.a"
+[ -f "$committed" ] || cannot "no $committed: $project is not the source folder"
+for library in $libraries; do
+    [ -f "$library" ] || cannot "no $library: build it first (cmake --build $build --target clvndf)"
+done
+mkdir -p "$work" 2>/dev/null || cannot "$work: cannot make this folder"
 
 [ $# -gt 0 ] || set -- \
     "g++ -O0" "g++ -O1" "g++ -O2" "g++ -O3" \
@@ -40,7 +53,7 @@ digests_of() {
             -c "$project/$source" -o "$object" || return 1
         objects="$objects $object"
     done
-    "$@" $objects "$build/host/libclvndf_host.a" "$build/host/reference/libclvndf_reference.a" -lfmt -lOpenCL -pthread \
+    "$@" $objects $libraries -lfmt -lOpenCL -pthread \
         -o "$work/digest_host" || return 1
     "$work/digest_host" $quick
 }
@@ -52,7 +65,10 @@ for build_with in "$@"; do
         missing=77
         continue
     fi
-    if digests_of $build_with >"$work/digests.txt" && diff "$project/tests/data/$digests" "$work/digests.txt"; then
+    if ! digests_of $build_with >"$work/digests.txt"; then
+        echo "$build_with: does not build, or does not run"
+        status=1
+    elif diff "$committed" "$work/digests.txt"; then
         echo "$build_with: same bits"
     else
         echo "$build_with: NOT the same bits"

@@ -6,7 +6,8 @@
 #
 #   switches_test.sh KERNELS_DIR
 set -eu
-kernels=$1
+kernels=${1-}
+[ -f "$kernels/vndf/vndf.h" ] || { echo "switches_test.sh: no headers in '$kernels/vndf'" && exit 2; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo '#include "vndf/vndf.h"' >"$work/test.cpp"

@@ -123,24 +123,24 @@ static inline float2 published_impl_sample11_ggx(float theta_i, float U1, float 
     return (float2)(slope_x, S * z * sqrt(1.0f + slope_x * slope_x));
 }
 
-#define PUBLISHED_SAMPLE(name, sample11)                                                                     \
-    static inline float3 name(float3 omega_i, float2 alpha, float2 U) {                                      \
-        /* 1. stretch omega_i, and its polar coordinates */                                                  \
-        float3 omega_i_ = normalize((float3)(alpha.x * omega_i.x, alpha.y * omega_i.y, omega_i.z));          \
-        float theta_ = atan2(length(omega_i_.xy), omega_i_.z);                                               \
-        float phi_ = atan2(omega_i_.y, omega_i_.x);                                                          \
-        /* 2. sample P22_{omega_i}(x_slope, y_slope, 1, 1) */                                                \
-        float2 slope = sample11(theta_, U.x, U.y);                                                           \
-        /* 3. rotate */                                                                                      \
-        float tmp = cos(phi_) * slope.x - sin(phi_) * slope.y;                                               \
-        slope.y = sin(phi_) * slope.x + cos(phi_) * slope.y;                                                 \
-        slope.x = tmp;                                                                                       \
-        /* 4. unstretch */                                                                                   \
-        slope.x = alpha.x * slope.x;                                                                         \
-        slope.y = alpha.y * slope.y;                                                                         \
-        /* 5. compute normal */                                                                              \
-        float inv_omega_m = sqrt(slope.x * slope.x + slope.y * slope.y + 1.0f);                              \
-        return (float3)(-slope.x / inv_omega_m, -slope.y / inv_omega_m, 1.0f / inv_omega_m);                 \
+#define PUBLISHED_SAMPLE(name, sample11)                                                            \
+    static inline float3 name(float3 omega_i, float2 alpha, float2 U) {                             \
+        /* 1. stretch omega_i, and its polar coordinates */                                         \
+        float3 omega_i_ = normalize((float3)(alpha.x * omega_i.x, alpha.y * omega_i.y, omega_i.z)); \
+        float theta_ = atan2(length(omega_i_.xy), omega_i_.z);                                      \
+        float phi_ = atan2(omega_i_.y, omega_i_.x);                                                 \
+        /* 2. sample P22_{omega_i}(x_slope, y_slope, 1, 1) */                                       \
+        float2 slope = sample11(theta_, U.x, U.y);                                                  \
+        /* 3. rotate */                                                                             \
+        float tmp = cos(phi_) * slope.x - sin(phi_) * slope.y;                                      \
+        slope.y = sin(phi_) * slope.x + cos(phi_) * slope.y;                                        \
+        slope.x = tmp;                                                                              \
+        /* 4. unstretch */                                                                          \
+        slope.x = alpha.x * slope.x;                                                                \
+        slope.y = alpha.y * slope.y;                                                                \
+        /* 5. compute normal */                                                                     \
+        float inv_omega_m = sqrt(slope.x * slope.x + slope.y * slope.y + 1.0f);                     \
+        return (float3)(-slope.x / inv_omega_m, -slope.y / inv_omega_m, 1.0f / inv_omega_m);        \
     }
 
 PUBLISHED_SAMPLE(published_ggx_sample_wm_heitz_deon2014, published_impl_sample11_ggx)

@@ -122,6 +122,7 @@ void run_check(const Check& options, Common& common) {
     require_distinct({{"--json", options.json}, {"--junit", options.junit}});
     const bool table = !is_standard_output(options.json) && !is_standard_output(options.junit);
     if (table) require_output();
+    const runtime::Math math = options.target.math();
     // Opened before the work, so that a path that cannot be written costs no time.
     std::optional<OutputFile> json, junit;
     if (!options.json.empty()) json.emplace(options.json);
@@ -132,13 +133,13 @@ void run_check(const Check& options, Common& common) {
     if (!options.only.empty()) program.functions = conformance::needed(selected);
     const Progress progress(common.quiet);
     progress("building the program", 0);
-    runtime::DeviceEvaluator evaluator(device, options.target.math(), options.target.real(), program);
+    runtime::DeviceEvaluator evaluator(device, math, options.target.real(), program);
     conformance::CheckOptions check;
     check.seed = common.seed;
     check.quick = options.quick;
     check.random_points = options.points;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
-    const conformance::Report report = conformance::check(evaluator, options.target.math(), selected, check);
+    const conformance::Report report = conformance::check(evaluator, math, selected, check);
     progress.clear();
 
     if (json) json->write(conformance::format_json(report)), json->commit();

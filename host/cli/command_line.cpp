@@ -27,12 +27,15 @@ void Target::add_to(CLI::App& command) {
     command.add_option("--real", real_name, "real type: float or double")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
-    command.parse_complete_callback([this] { runtime::require_policy(math(), real()); });
 }
 
 runtime::Math Target::math() const {
     using runtime::Math;
-    return math_name == "strict" ? Math::strict : math_name == "builtin" ? Math::builtin : Math::native;
+    const Math math = math_name == "strict"    ? Math::strict
+                      : math_name == "builtin" ? Math::builtin
+                                               : Math::native;
+    runtime::require_policy(math, real());
+    return math;
 }
 
 runtime::Real Target::real() const {

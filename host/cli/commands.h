@@ -25,7 +25,7 @@ struct Target {
     std::string device, math_name = "strict", real_name = "float";
 
     void add_to(CLI::App& command);
-    runtime::Math math() const;
+    runtime::Math math() const;  // throws InputError if it does not exist for real()
     runtime::Real real() const;
     // The device asked for; unless quiet, stderr says which one was taken of several.
     runtime::Device choose(const Common& common) const;

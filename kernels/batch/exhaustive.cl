@@ -58,7 +58,8 @@ VNDF_FN VNDF_REAL vndf_exhaustive_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     VNDF_REAL s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
     return a * a * (s * s + z * z) / (s * s + a * a * z * z);
 }
-VNDF_FN VNDF_REAL vndf_exhaustive_ratio(VNDF_REAL low, VNDF_REAL high, VNDF_REAL x, VNDF_REAL y, VNDF_REAL z2) {
+VNDF_FN VNDF_REAL vndf_exhaustive_ratio(VNDF_REAL low, VNDF_REAL high, VNDF_REAL x, VNDF_REAL y,
+                                        VNDF_REAL z2) {
     VNDF_REAL slant = low / high;
     return low * low * (x + y + z2) / (slant * x * slant + y + low * z2 * low);
 }
@@ -79,8 +80,8 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_eto2023(wo, alpha))
 #define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_eto2023_polygon(wo, alpha, d) \
     vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_polygon(wo, alpha))
-#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_conic2026(wo, alpha, d)                      \
-    (wo.z > VNDF_R(0.0) ? d.z > VNDF_R(0.0)                                                 \
+#define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_conic2026(wo, alpha, d) \
+    (wo.z > VNDF_R(0.0) ? d.z > VNDF_R(0.0)                            \
                         : vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_eto2023(wo, alpha)))
 #define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wm(wo, alpha, d) 1
 #define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wm_benyoub2024(wo, alpha, d) 1
@@ -101,7 +102,8 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA1_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_ALPHA_U(d, inside) 1
-#define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
+#define VNDF_EXHAUSTIVE_FACES_WM_WO_N_ALPHA1_U(d, inside) \
+    (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside) \
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
 #define VNDF_EXHAUSTIVE_FACES_WI_CONIC2026_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside)
@@ -111,44 +113,43 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 #define VNDF_EXHAUSTIVE_ARGUMENT(v) const VNDF_REAL lobe_##v,
 #define VNDF_EXHAUSTIVE_BIND(v) VNDF_REAL v = lobe_##v;
 
-#define VNDF_EXHAUSTIVE(name, function, arguments, result, inside)                                                   \
-    __kernel void name(VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_ARGUMENT) const uint step1,                  \
-                       const uint start1, const uint step2, const uint start2, \
-                       const uint strip, const uint defined, const uint documented, const uint watch,        \
-                       __global uint *tally) {                                                               \
-        VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_BIND);                                                      \
-        const uint from = (uint)get_global_id(0) * strip;                                            \
-        uint not_finite = 0, not_unit = 0, not_upper = 0, not_facing = 0, not_density = 0, first = ~0u;      \
-        for (uint k = from; k != from + strip; ++k) {                                                        \
-            u1 = vndf_exhaustive_walk(lobe_u1, step1, start1, k);                                            \
-            u2 = vndf_exhaustive_walk(lobe_u2, step2, start2, k);                                            \
-            const VNDF_REAL4 d = function(VNDF_CALL_##arguments);                                            \
-            const int finite = vndf_exhaustive_finite(d.x) & vndf_exhaustive_finite(d.y) &                   \
-                               vndf_exhaustive_finite(d.z) & vndf_exhaustive_finite(d.w);                    \
-            const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d);                                               \
-            const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d);                               \
-            const int normal = (d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(1.0));           \
-            const int faces = defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d, inside)                      \
-                                      : normal | !documented;                                                \
-            const int density = defined ? d.w > VNDF_R(0.0) : d.w == VNDF_R(0.0);                            \
-            not_finite += !finite;                                                                           \
-            not_unit += !unit;                                                                               \
-            not_upper += !upper;                                                                             \
-            not_facing += !faces;                                                                            \
-            not_density += !density;                                                                         \
-            const uint broken = (finite ? 0 : 1) | (unit ? 0 : 2) | (upper ? 0 : 4) | (faces ? 0 : 8) |      \
-                                (density ? 0 : 16);                                                          \
-            const uint offender = broken & watch ? k : ~0u;                                                  \
-            first = offender < first ? offender : first;                                                     \
-        }                                                                                                    \
-        if (not_finite + not_unit + not_upper + not_facing + not_density) {                                  \
-            atomic_add(&tally[0], not_finite);                                                               \
-            atomic_add(&tally[1], not_unit);                                                                 \
-            atomic_add(&tally[2], not_upper);                                                                \
-            atomic_add(&tally[3], not_facing);                                                               \
-            atomic_add(&tally[4], not_density);                                                              \
-            atomic_min(&tally[5], first);                                                                    \
-        }                                                                                                    \
+#define VNDF_EXHAUSTIVE(name, function, arguments, result, inside)                                          \
+    __kernel void name(VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_ARGUMENT) const uint step1,                 \
+                       const uint start1, const uint step2, const uint start2, const uint strip,            \
+                       const uint defined, const uint documented, const uint watch, __global uint* tally) { \
+        VNDF_SCALARS_##arguments(VNDF_EXHAUSTIVE_BIND);                                                     \
+        const uint from = (uint)get_global_id(0) * strip;                                                   \
+        uint not_finite = 0, not_unit = 0, not_upper = 0, not_facing = 0, not_density = 0, first = ~0u;     \
+        for (uint k = from; k != from + strip; ++k) {                                                       \
+            u1 = vndf_exhaustive_walk(lobe_u1, step1, start1, k);                                           \
+            u2 = vndf_exhaustive_walk(lobe_u2, step2, start2, k);                                           \
+            const VNDF_REAL4 d = function(VNDF_CALL_##arguments);                                           \
+            const int finite = vndf_exhaustive_finite(d.x) & vndf_exhaustive_finite(d.y) &                  \
+                               vndf_exhaustive_finite(d.z) & vndf_exhaustive_finite(d.w);                   \
+            const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d);                                              \
+            const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d);                              \
+            const int normal = (d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(1.0));          \
+            const int faces =                                                                               \
+                defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d, inside) : normal | !documented;   \
+            const int density = defined ? d.w > VNDF_R(0.0) : d.w == VNDF_R(0.0);                           \
+            not_finite += !finite;                                                                          \
+            not_unit += !unit;                                                                              \
+            not_upper += !upper;                                                                            \
+            not_facing += !faces;                                                                           \
+            not_density += !density;                                                                        \
+            const uint broken =                                                                             \
+                (finite ? 0 : 1) | (unit ? 0 : 2) | (upper ? 0 : 4) | (faces ? 0 : 8) | (density ? 0 : 16); \
+            const uint offender = broken & watch ? k : ~0u;                                                 \
+            first = offender < first ? offender : first;                                                    \
+        }                                                                                                   \
+        if (not_finite + not_unit + not_upper + not_facing + not_density) {                                 \
+            atomic_add(&tally[0], not_finite);                                                              \
+            atomic_add(&tally[1], not_unit);                                                                \
+            atomic_add(&tally[2], not_upper);                                                               \
+            atomic_add(&tally[3], not_facing);                                                              \
+            atomic_add(&tally[4], not_density);                                                             \
+            atomic_min(&tally[5], first);                                                                   \
+        }                                                                                                   \
     }
 
 #define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, float_bounds, double_bounds, source) \

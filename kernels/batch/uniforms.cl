@@ -18,7 +18,7 @@ VNDF_FN VNDF_REAL vndf_impl_uniform(uint high, uint low) {
 }
 
 // u1[i] and u2[i] for the items first ... first + count - 1 of a stream.
-__kernel void vndf_batch_uniforms(__global VNDF_REAL *restrict u1, __global VNDF_REAL *restrict u2,
+__kernel void vndf_batch_uniforms(__global VNDF_REAL* restrict u1, __global VNDF_REAL* restrict u2,
                                   const ulong seed, const ulong stream, const ulong first, const uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
