@@ -12,9 +12,8 @@ A mutant changes one thing: + - * / < <= > >= && || ! min max sin cos, a number 
 its sign, the sign of an operand, the choices of ?:, an x for a y. It is judged in steps, each only if the one before has
 not caught it:
 
-  1. the host build of the headers: the functions whose results change over 2^12 inputs, in strict float, else in strict
-     double, else in builtin float, else over 2^15 inputs of each (none: "same bits"), and few points of `clvndf check`'s
-     pointwise comparison for them;
+  1. the host build of the headers, in strict float, strict double and builtin float: the functions whose results change
+     over 2^12 inputs, else over 2^15 (none: "same bits"), and few points of `clvndf check`'s pointwise comparison for them;
   2. all points of it;
   3. the quick check of these functions on the device, with its statistics (clvndf_tests "a mutant from outside"); with
      --full the full one as well.
@@ -175,6 +174,8 @@ class BuildsNot(Exception):
 class Bench:
     """The changed headers, compiled and judged."""
 
+    builds = [("float", "strict"), ("double", "strict"), ("float", "builtin")]
+
     def __init__(self, build, work):
         self.build, self.work = build, work
         self.tree = work / "tree"
@@ -185,12 +186,10 @@ class Bench:
             shutil.copy(project / "host/runtime" / name, self.tree / "host/runtime")
         self.main = work / "mutant_host.o"
         self.compile(project / "tests/support/mutant_host.cpp", self.main, "float", "strict")
-        for real, math, rows in self.builds:
+        for real, math in self.builds:
             self.link(real, math)
-            self.digests(real, math, rows).write_text(self.output([work / "mutant_host", real, math, rows]))
-
-    builds = [(real, math, rows) for rows in ("4096", "32768")
-              for real, math in (("float", "strict"), ("double", "strict"), ("float", "builtin"))]
+            for rows in ("4096", "32768"):
+                self.digests(real, math, rows).write_text(self.output([work / "mutant_host", real, math, rows]))
 
     def digests(self, *build):
         return self.work / f"digests_{'_'.join(build)}.txt"
@@ -211,8 +210,9 @@ class Bench:
     def output(command, **more):
         return subprocess.run(command, check=True, capture_output=True, text=True, timeout=1800, **more).stdout
 
-    def on_host(self, build, points, stride):
-        out = self.output([self.work / "mutant_host", *build, self.digests(*build), str(points), str(stride)])
+    def on_host(self, *build_and_rows, points, stride):
+        out = self.output([self.work / "mutant_host", *build_and_rows, self.digests(*build_and_rows), str(points),
+                           str(stride)])
         lines = out.splitlines()
         caught = [line[7:] for line in lines if line.startswith("caught ")]
         return [line[8:] for line in lines if line.startswith("changed ")], caught[0] if caught else None
@@ -248,24 +248,30 @@ class Bench:
             target.write_text(text)
 
     def verdict(self, m, text, full):
-        for build in self.builds:
-            real, math, rows = build
-            self.link(real, math)
-            changed, caught = self.on_host(build, 1024, 97)
-            if caught:
-                return {"verdict": "caught", "by": f"{math} {real}, few points: {caught}"}
-            if changed:
-                break
-        else:
-            return {"verdict": "same bits"}
-        _, caught = self.on_host(build, 65536, 1)
-        if caught:
-            return {"verdict": "caught", "by": f"{math} {real}, pointwise: {caught}"}
-        for quick in [True, False] if full else [True]:
-            caught = self.on_device(m, text, changed, real, math, quick)
-            if caught:
-                return {"verdict": "caught", "by": f"{math} {real}, {'quick' if quick else 'full'} check: {caught}"}
-        return {"verdict": "survived", "build": f"{math} {real}", "changed": changed}
+        for rows in ("4096", "32768"):
+            survived = {}
+            for points, stride in (1024, 97), (65536, 1):
+                for real, math in self.builds:
+                    if points > 1024 and (real, math) not in survived:
+                        continue
+                    self.link(real, math)
+                    changed, caught = self.on_host(real, math, rows, points=points, stride=stride)
+                    if caught:
+                        return {"verdict": "caught", "by": f"{math} {real}, {points} points: {caught}"}
+                    if changed:
+                        survived[real, math] = changed
+            if survived:
+                return self.device_verdict(m, text, survived, full)
+        return {"verdict": "same bits"}
+
+    def device_verdict(self, m, text, survived, full):
+        for (real, math), changed in survived.items():
+            for quick in [True, False] if full else [True]:
+                caught = self.on_device(m, text, changed, real, math, quick)
+                if caught:
+                    return {"verdict": "caught", "by": f"{math} {real}, {'quick' if quick else 'full'} check: {caught}"}
+        return {"verdict": "survived", "build": ", ".join(f"{math} {real}" for real, math in survived),
+                "changed": sorted(set().union(*survived.values()))}
 
 
 def main():

@@ -224,12 +224,44 @@ std::vector<Point> straight_points() {
     return points;
 }
 
+// Next to total reflection, on either side: eta is the sine of the angle between wo and wm, but for a small part.
+std::vector<Point> critical_points() {
+    std::vector<Point> points;
+    for (const double cos_theta : {.9, .5, .1})
+        for (const Stretched& normal : {Stretched{.95, 2}, {.7, .7}, {.5, -1}})
+            for (const double part : {1e-2, 1e-4, 1e-5, 1e-6, 2e-7, -2e-7, -1e-6, -1e-4}) {
+                Point point =
+                    make_point(direction(cos_theta, .7), {.5, .8}, normal, {0, 0, 1}, {.5, .5}, 1.5);
+                const double c =
+                    point.wo[0] * point.wm[0] + point.wo[1] * point.wm[1] + point.wo[2] * point.wm[2];
+                point.eta = std::sqrt((1 - c) * (1 + c)) * (1 + part);
+                points.push_back(point);
+            }
+    return points;
+}
+
+// Slopes next to 0, where formulas for either sign meet.
+std::vector<Point> level_points() {
+    std::vector<Point> points;
+    for (const double cos_theta : {1., .9, .5, .1, 1e-3, 0., -1e-3, -.5})
+        for (const double x : {1e-4, 1e-6, 1e-7, 1e-9, -1e-9, -1e-7, -1e-6, -1e-4}) {
+            Point point = make_point(direction(cos_theta, .7), {.5, .8}, {1, 0}, {0, 0, 1}, {.5, .5}, 1.5);
+            point.x = x, point.slope = {x, -x};
+            points.push_back(point);
+        }
+    return points;
+}
+
 }  // namespace
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
     if (function.kind == Kind::sampler)
         for (const Point& point : nearly_unit_points(function)) points.push_back(point);
+    if (uses(function, {"eta"}) && uses(function, {"wm_x"}))
+        for (const Point& point : critical_points()) points.push_back(point);
+    if (uses(function, {"x", "slope_x"}))
+        for (const Point& point : level_points()) points.push_back(point);
     if (uses(function, {"wi_x"}))
         for (const Point& point : returning_points()) points.push_back(point);
     if (uses(function, {"u1"}))

@@ -22,6 +22,10 @@ double exponent(const Function& function, const RowReader& reader, const double*
         const double x = alpha[0] * w[0], y = alpha[1] * w[1];
         return w[2] * w[2] / (x * x + y * y);
     };
+    // Seen from above sigma and the shadowing terms are sums of 1 and what the exponential leaves: its error is theirs no
+    // more.
+    const bool from_above = wo[2] >= 0 && (!reader.has_wi() || wi[2] >= 0);
+    if (from_above && function.name != "vndf_beckmann_lambda") return 0;
     return reader.has_wi() ? std::max(angle(wo), angle(wi)) : angle(wo);
 }
 
