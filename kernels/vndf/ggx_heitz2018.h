@@ -1,4 +1,4 @@
-// GGX visible normals by the cross section of the hemisphere: the most accurate exact map.
+// GGX visible normals by the cross section of the hemisphere.
 //
 // Source: Heitz, Sampling the GGX Distribution of Visible Normals, 2018, as restated in Dupuy & Benyoub,
 //     Sampling Visible GGX Normals with Spherical Caps, 2023, Listing 2. Paper wi = wo here; s = P / 2.
