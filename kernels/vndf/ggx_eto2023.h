@@ -1,7 +1,9 @@
 // GGX reflections by the bounded spherical cap: fewer reflections below the horizon; and its density.
 //
 // Source: Eto & Tokuyoshi, Bounded VNDF Sampling for Smith-GGX Reflections, 2023, Listings 1 and 2, Equations
-//     5 to 8 (i = wo, o = wi).
+//     5 to 8 (i = wo, o = wi). Public code that cites Tokuyoshi & Eto, Bounded VNDF Sampling for the Smith-GGX BRDF,
+//     2024, takes k = (1 - a^2) s^2 / (s^2 + a^2 wo.z^2), a = min(alpha_x, alpha_y, 1), s = 1 + |wo_xy|: the k of
+//     Equation 6, for every alpha, and so of this file.
 #ifndef VNDF_GGX_ETO2023_H
 #define VNDF_GGX_ETO2023_H
 

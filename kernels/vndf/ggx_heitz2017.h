@@ -16,7 +16,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u1;
     VNDF_REAL z = cap.z, sine = cap.sine;
     int facing = u2 * cap.p < VNDF_R(1.0);
-    // Half a turn at most; z = 0 has no tangent disk, and its quotient is not used.
+    // Half a turn at most: where z is lost in P = 1 + z the quotient may be any number. z = 0 has no tangent disk, and its
+    // quotient is not used.
     VNDF_REAL turn = facing ? VNDF_R(0.5) * u2 * cap.p : VNDF_R(0.5) * (VNDF_R(1.0) - u2) * cap.p / z;
     turn = turn < VNDF_R(0.5) ? turn : VNDF_R(0.5);
     VNDF_REAL radius = VNDF_SQRT(u1), p1 = radius * vndf_impl_circle_cos(turn);

@@ -1,4 +1,4 @@
-// GGX visible normals by the cross section of the hemisphere: the most accurate exact map.
+// GGX visible normals by the cross section of the hemisphere.
 //
 // Source: Heitz, Sampling the GGX Distribution of Visible Normals, 2018, as restated in Dupuy & Benyoub,
 //     Sampling Visible GGX Normals with Spherical Caps, 2023, Listing 2. Paper wi = wo here; s = P / 2.
@@ -31,8 +31,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL t_i = cap.sqrt_p * root;
     // The denominator is 0 where nothing is visible: a normal on the horizon.
     VNDF_REAL other = VNDF_FMA(t, sine, -t_i * z);
-    VNDF_REAL conjugate = half_p_plus * VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r) /
-                          (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
+    // Towards the horizon Q and P differ by little, and their terms cancel: there t - z R, of two equal signs.
+    int level = z >= VNDF_R(0.0) && z < VNDF_R(0.0625);
+    VNDF_REAL factor = level ? VNDF_FMA(-z, big_r, t) : VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r);
+    VNDF_REAL conjugate = half_p_plus * factor / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (t < VNDF_R(0.0)) != (z < VNDF_R(0.0));
     VNDF_REAL hz = opposite ? conjugate : VNDF_FMA(t, sine, t_i * z);
     VNDF_REAL along = VNDF_FMA(t_i, sine, -t * z);

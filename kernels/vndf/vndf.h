@@ -1,4 +1,6 @@
-// clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals.
+// clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals, after Walter et al. 2007,
+// Heitz & d'Eon 2014, Jakob 2014, Heitz 2017, Heitz 2018, Dupuy & Benyoub 2023, Eto & Tokuyoshi 2023 and Benyoub 2024,
+// and of this package.
 //
 // One header set for OpenCL C 1.2 (and later) and C++20. Include this file, or only the sampler you need;
 // each header includes what it uses. Nothing here has state, takes a pointer or calls out: copy the folder.

@@ -185,14 +185,29 @@ std::vector<Point> silhouette_points() {
 std::vector<Point> returning_points() {
     std::vector<Point> points;
     for (const double alpha : {1e-6, 2e-6, 1e-5})
-        for (const double a : {.7, 1., 1.5, 2., 3., 4.})
-            for (const double height : {1e-5, 3e-5, 1e-4})
-                for (const double azimuth : {0., .7, 1.7, -1.2, 3.}) {
-                    Point point = make_point(direction(-a * alpha, azimuth), {alpha, alpha}, {1, 0},
-                                             {0, 0, 1}, {.5, .5}, 1.5);
-                    point.wi = {-point.wo[0], -point.wo[1], height};
-                    points.push_back(point);
-                }
+        for (const auto& pair : {std::array{alpha, alpha}, {alpha, 2 * alpha}, {3 * alpha, alpha}})
+            for (const double a : {.7, 1., 1.5, 2., 3., 4.})
+                for (const double height : {1e-5, 3e-5, 1e-4})
+                    for (const double azimuth : {0., .7, 1.7, -1.2, 3.}) {
+                        Point point = make_point(direction(-a * alpha, azimuth), pair, {1, 0}, {0, 0, 1},
+                                                 {.5, .5}, 1.5);
+                        point.wi = {-point.wo[0], -point.wo[1], height};
+                        points.push_back(point);
+                    }
+    return points;
+}
+
+// Grazing view directions whose stretched cosine is lost in 1 +- a unit, of float and of double, with the last values of u:
+// quotients of such a cosine and such a rest are any number (2017: the turn of the tangent half disk).
+std::vector<Point> grazing_points() {
+    std::vector<Point> points;
+    for (const double unit : {0x1p-24, 0x1p-53})
+        for (const double alpha : {1e-3, .5})
+            for (const double cosine : {.5, 1., 1.1, 1.5})
+                for (int last = 1; last <= 4; ++last)
+                    for (const double u : {.2, .8, 1.})
+                        points.push_back(make_point(direction(cosine * unit * alpha, .7), {alpha, alpha},
+                                                    {1, 0}, {0, 0, 1}, {u, 1 - last * unit}, 1.5));
     return points;
 }
 
@@ -265,7 +280,8 @@ std::vector<Point> guard_points(const Function& function) {
     if (uses(function, {"wi_x"}))
         for (const Point& point : returning_points()) points.push_back(point);
     if (uses(function, {"u1"}))
-        for (const Point& point : silhouette_points()) points.push_back(point);
+        for (const auto& some : {silhouette_points(), grazing_points()})
+            points.insert(points.end(), some.begin(), some.end());
     if (uses(function, {"eta"})) {
         std::vector<Point> straight = straight_points();
         refract_some(function, straight);
