@@ -6,7 +6,7 @@
 
 #include <Random123/philox.h>
 
-#include "conformance/judge/samplers.h"
+#include "conformance/judge/pointwise.h"
 #include "error.h"
 #include "runtime/device_evaluator.h"
 #include "support/catch.h"
