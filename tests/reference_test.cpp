@@ -139,7 +139,8 @@ std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 
     const double s = std::sqrt((1 - l.cos_theta) * (1 + l.cos_theta));
     if (sampler.arguments == "ALPHA_U") return {l.ax, l.ay, u1, u2};
     const double x = s * std::cos(l.phi), y = s * std::sin(l.phi), z = l.cos_theta;
-    if (sampler.arguments == "WO_ALPHA_U") return {x, y, z, l.ax, l.ay, u1, u2};
+    if (sampler.arguments == "WO_ALPHA_U" || sampler.arguments == "CONIC2026_LOBE_U")
+        return {x, y, z, l.ax, l.ay, u1, u2};
     if (sampler.arguments == "WO_ALPHA1_U") return {x, y, z, l.ax, u1, u2};
     // The frame turned by c = 0.6 about y: z -> n.
     return {0.6 * x - 0.8 * z, y, 0.8 * x + 0.6 * z, -0.8, 0, 0.6, l.ax, u1, u2};
@@ -153,6 +154,10 @@ Distribution distribution_of(const Function& sampler, const Lobe& l) {
     if (sampler.arguments != "ALPHA_U") lobe.wo = {in[0], in[1], in[2]};
     if (sampler.arguments == "WO_N_ALPHA1_U") lobe.n = {in[3], in[4], in[5]};
     return {sampler.density, lobe};
+}
+
+std::string without_lobe(const std::string& name) {
+    return name.ends_with("_lobe") ? name.substr(0, name.size() - 5) : name;
 }
 
 std::vector<const Function*> samplers() {
@@ -215,7 +220,11 @@ TEST_CASE(
         CHECK(reference::find_evaluation<long double>(f.name));
         CHECK((reference::find_condition(f.name) != nullptr) == (f.kind == Kind::sampler));
         if (f.kind == Kind::density) CHECK_NOTHROW(Distribution(f.name, {}));
-        CHECK(in_table.count(f.kind == Kind::sampler && !f.with_pdf ? f.name + "_with_pdf" : f.name));
+        CHECK(in_table.count(f.kind == Kind::sampler ? without_lobe(f.plain) + "_with_pdf"
+                                                     : without_lobe(f.name)));
+        // What a function of a lobe computes is what it computes without one.
+        CHECK(reference::find_evaluation<double>(f.name) ==
+              reference::find_evaluation<double>(without_lobe(f.plain) + (f.with_pdf ? "_with_pdf" : "")));
     }
     CHECK_FALSE(reference::find_evaluation<double>("vndf_ggx_sample_wm"));
     CHECK_THROWS_AS(reference::condition("vndf_ggx_ndf", nullptr, Precision::f32), std::invalid_argument);
@@ -464,7 +473,9 @@ TEST_CASE("moments agree with the closed forms of the hemisphere and of the Gaus
         // Beckmann slopes, alpha = 0.7: E[x], E[x^2], E[y^2] by the rule.
         const double alpha = 0.7;
         if (c == 1 || c < 0) continue;
-        const auto rule = Distribution("vndf_beckmann_pdf_wm", {.wo = {s, 0, c}, .alpha_x = alpha, .alpha_y = alpha}).rule(1);
+        const auto rule =
+            Distribution("vndf_beckmann_pdf_wm", {.wo = {s, 0, c}, .alpha_x = alpha, .alpha_y = alpha})
+                .rule(1);
         double x1 = 0, x2 = 0, y2 = 0;
         for (std::size_t i = 0; i < rule.size(); ++i) {
             const double x = -rule.x[i] / rule.z[i], y = rule.y[i] / rule.z[i];
