@@ -138,6 +138,24 @@ VNDF_FN struct vndf_impl_divisor vndf_impl_divisor_of(VNDF_REAL x) {
     return d;
 }
 
+// x > 0 as a number in [1, 2) and a power of two.
+VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
+    struct vndf_impl_power s;
+    VNDF_REAL scale = vndf_impl_scale(x);
+    s.part = x * scale;
+    s.exponent = VNDF_IMPL_EXPONENT_BIAS - (VNDF_AS_INT(scale) >> VNDF_IMPL_MANTISSA_BITS);
+    return s;
+}
+
+// part 2^exponent for a part >= 0 of moderate size, at most the largest finite number.
+VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
+    VNDF_INT most = 2 * VNDF_IMPL_EXPONENT_BIAS - 2, all = x.exponent > most ? most : x.exponent;
+    all = all < -most ? -most : all;
+    VNDF_INT first = all >> 1;
+    return vndf_impl_bounded_product(vndf_impl_bounded_product(x.part, vndf_impl_exp2i(first)),
+                                     vndf_impl_exp2i(all - first));
+}
+
 // --- Directions and samples as scalars ---
 
 struct vndf_impl_sample {

@@ -54,9 +54,9 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
     // Beyond 2^58 alpha (double: 2^506 alpha) nothing of the density is left.
-    VNDF_REAL far = VNDF_R(0.015625) / VNDF_IMPL_ROOT_LEAST;
-    VNDF_REAL x = vndf_impl_min(vndf_impl_abs(slope.x), alpha_x * far),
-              y = vndf_impl_min(vndf_impl_abs(slope.y), alpha_y * far);
+    VNDF_REAL limit = VNDF_R(0.015625) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL x = vndf_impl_min(vndf_impl_abs(slope.x), alpha_x * limit),
+              y = vndf_impl_min(vndf_impl_abs(slope.y), alpha_y * limit);
     VNDF_REAL q = vndf_impl_ggx_q(x, y, VNDF_R(1.0), alpha_x, alpha_y);
     VNDF_REAL qx = q * alpha_x, qy = q * alpha_y;
     return vndf_impl_beyond(qx, qy) ? VNDF_R(0.0) : VNDF_1_PI / (qx * qy);
@@ -217,11 +217,11 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 16.
 VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     // Nothing is left where the square of x would overflow.
-    int far = vndf_impl_beyond(vndf_impl_abs(x), vndf_impl_abs(x));
-    VNDF_REAL near_x = far ? VNDF_R(0.0) : x, square = VNDF_FMA(near_x, near_x, VNDF_R(1.0));
-    VNDF_REAL p = VNDF_R(1.0) + cos_theta, visible = vndf_impl_visible_cosine(cos_theta, near_x);
+    int beyond = vndf_impl_beyond(vndf_impl_abs(x), vndf_impl_abs(x));
+    VNDF_REAL slope = beyond ? VNDF_R(0.0) : x, square = VNDF_FMA(slope, slope, VNDF_R(1.0));
+    VNDF_REAL p = VNDF_R(1.0) + cos_theta, visible = vndf_impl_visible_cosine(cos_theta, slope);
     VNDF_REAL pdf = (visible / VNDF_SQRT(square)) / square / (p > VNDF_R(0.0) ? p : VNDF_R(1.0));
-    return visible > VNDF_R(0.0) && p > VNDF_R(0.0) && !far ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return visible > VNDF_R(0.0) && p > VNDF_R(0.0) && !beyond ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
 // Its cumulative distribution.
