@@ -36,7 +36,10 @@ VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
 // D for a normal (x, y, z), taken literally.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
                                        VNDF_REAL alpha_y) {
-    VNDF_REAL z2 = z * z, sx = x / alpha_x / z, sy = y / alpha_y / z;
+    // Where z is below 2^-16, or a slope beyond 2^20 alpha, the exponential is 0.
+    VNDF_REAL up = vndf_impl_max(z, VNDF_R(1.52587890625e-05)), limit = VNDF_R(1048576.0);
+    VNDF_REAL z2 = up * up, sx = vndf_impl_min(vndf_impl_abs(x), alpha_x * limit) / alpha_x / up,
+              sy = vndf_impl_min(vndf_impl_abs(y), alpha_y * limit) / alpha_y / up;
     VNDF_REAL d = vndf_impl_scaled_exp(-VNDF_FMA(sx, sx, sy * sy), VNDF_R(0.0),
                                        VNDF_1_PI / ((z2 * alpha_x) * (z2 * alpha_y)));
     return z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
@@ -141,7 +144,9 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
 VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL q, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y) {
     VNDF_REAL up = VNDF_R(134217728.0), ax = alpha_x * up, ay = alpha_y * up, z = wo.z * up;
-    VNDF_REAL x = ax * wo.x, y = ay * wo.y, x2 = x * x, y2 = y * y, l2 = x2 + y2, z2 = z * z, a2 = z2 / l2;
+    VNDF_REAL x = ax * wo.x, y = ay * wo.y, x2 = x * x, y2 = y * y, z2 = z * z;
+    // At least 2^-70 (double: 2^-518), against infinity: beyond lies a view that sees nothing.
+    VNDF_REAL l2 = vndf_impl_max(x2 + y2, VNDF_R(0.015625) * VNDF_IMPL_ROOT_LEAST), a2 = z2 / l2;
     VNDF_REAL cross = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
     VNDF_REAL squares = VNDF_FMA(x, x, -x2) + (VNDF_FMA(y, y, -y2) + vndf_impl_sum_error(x2, y2, l2));
     VNDF_REAL l2_low = VNDF_FMA(VNDF_R(2.0), cross, squares);
@@ -156,7 +161,7 @@ VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL
     return exponent;
 }
 
-// weight D / sigma(wo) for a normal (x, y, z): 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
+// weight D / sigma(wo) for a normal (x, y, z), z > 0: 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
 // rounding. Behind the surface the exponents of D and sigma combine: with the slope |a| + tau along wo and y across,
 // q - a^2 = tau (2 |a| + tau) + y^2. A normal that faces away (tau < 0) occurs only as the half vector of two rounded
 // directions.
@@ -166,19 +171,35 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, wo.z);
     int front = wo.z >= VNDF_R(0.0);
-    VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z, q = VNDF_FMA(sx, sx, sy * sy);
-    VNDF_REAL tau = cosine / (z * v.l);
-    VNDF_REAL across = vndf_impl_difference_of_products(sx, v.y, sy, v.x) * v.rcp_l;
-    VNDF_REAL steep = VNDF_FMA(tau, VNDF_FMA(VNDF_R(2.0), s.a, tau), across * across);
+    // Slopes beyond 2^62 (double: 2^510) have the density 0.
+    VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z;
+    VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
+    VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
+    // tau = cosine / (z l): both times a power of two, since the product may underflow.
+    VNDF_REAL l = v.l > VNDF_R(0.0) ? v.l : VNDF_R(1.0),
+              tau = cosine / VNDF_IMPL_ROOT_LEAST / (z / VNDF_IMPL_ROOT_LEAST * l);
+    VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
+    VNDF_REAL across =
+        vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, v.y, sy, v.x) * v.rcp_l), limit);
+    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), s.a, lean), across * across);
     struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
     int away = rounded && !front && tau < VNDF_R(0.0);
     VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
-    // Small factors first: below the horizon l I(a) may be as small as weight.
-    VNDF_REAL share = front ? weight / VNDF_FMA(v.l * s.gaussian, s.hidden, wo.z) : weight / v.l / s.hidden;
-    VNDF_REAL scale = VNDF_1_PI * share * rise / (v.alpha_x * v.alpha_y) * rise;
+    // Powers of two apart: below the horizon l I(a) may be as small as weight.
+    struct vndf_impl_power area = vndf_impl_split(front ? VNDF_FMA(l * s.gaussian, s.hidden, wo.z) : l),
+                           least = vndf_impl_split(s.hidden), up = vndf_impl_split(rise), scale;
+    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
+    scale.part = VNDF_1_PI * share * up.part / (v.alpha_x * v.alpha_y) * up.part;
+    scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
     VNDF_REAL result =
-        vndf_impl_finite(vndf_impl_scaled_exp(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale));
-    return z > VNDF_R(0.0) && (front || v.l > VNDF_R(0.0)) ? result : VNDF_R(0.0);
+        vndf_impl_finite(vndf_impl_bounded_exp(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale));
+    return front || v.l > VNDF_R(0.0) ? result : VNDF_R(0.0);
+}
+
+// z > 0 at least 2^-62 (double: 2^-510), below which slopes are too large for any number.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_height(VNDF_REAL z) {
+    return vndf_impl_max(z, VNDF_R(4.0) * VNDF_IMPL_ROOT_LEAST);
 }
 
 // The distribution of visible normals: the density of every vndf_beckmann_sample_wm_* but walter2007.
@@ -190,9 +211,10 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
 // Accuracy: 16 (1 + 2 q).
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL rise = VNDF_R(1.0) / (wm.z * wm.z);
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, wm.x, wm.y, wm.z, cosine, 0, rise, cosine, alpha);
-    return cosine > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
+    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z);
+    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, wm.x, wm.y, z, cosine, 0, rise,
+                                               vndf_impl_max(cosine, VNDF_R(0.0)), alpha);
+    return wm.z > VNDF_R(0.0) && cosine > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
 // The density of the reflection of wo about a visible normal.
@@ -210,9 +232,11 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
         wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
         VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
     VNDF_REAL cosine = dot.head + (dot.tail + low);
-    VNDF_REAL tx = x / z, ty = y / z;
+    VNDF_REAL height = vndf_impl_beckmann_height(z), tx = x / height, ty = y / height;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
-    return vndf_impl_beckmann_visible(wo, x, y, z, cosine, 1, rise, VNDF_R(0.25), alpha);
+    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, x, y, height, z > VNDF_R(0.0) ? cosine : VNDF_R(0.0), 1,
+                                               rise, VNDF_R(0.25), alpha);
+    return z > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
 // The density of the plain NDF sampler: D(wm) wm.z.

@@ -27,15 +27,19 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     int at_edge = excess <= VNDF_R(0.0), outer = excess <= plateau;
 
     // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
-    VNDF_REAL upper = mass_above / (i.c * within), lower = (excess - plateau) / (i.c * within);
+    VNDF_REAL central = i.c * within, centre_mass = central > VNDF_R(0.0) ? central : VNDF_R(1.0);
+    VNDF_REAL upper = mass_above / centre_mass, lower = (excess - plateau) / centre_mass;
     int left = upper > VNDF_R(0.5);
     VNDF_REAL less = vndf_impl_max(left ? lower : upper, VNDF_R(0.0));
     VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
 
     // |x| = erfinv(p) with p = 1 - q; at the edge, sqrt(a^2 - log(mass / edge)), the logarithm with the rounding error of
     // its argument 1 + r. Rounding must not carry the excess beyond the plateau: x would pass the edge of the visible.
-    VNDF_REAL r = excess / edge, rest = shallow ? VNDF_R(1.0) + r : mass / edge;
-    VNDF_REAL q = outer ? vndf_impl_min(excess / plateau, VNDF_R(1.0)) * beyond
+    // Masses that are next to nothing hold no sample: their quotients are kept finite.
+    VNDF_REAL edge_mass = vndf_impl_max(edge, VNDF_IMPL_ROOT_LEAST * VNDF_EPSILON),
+              plateau_mass = vndf_impl_max(plateau, VNDF_IMPL_ROOT_LEAST * VNDF_EPSILON);
+    VNDF_REAL r = excess / edge_mass, rest = shallow ? VNDF_R(1.0) + r : mass / edge_mass;
+    VNDF_REAL q = outer ? vndf_impl_min(excess / plateau_mass, VNDF_R(1.0)) * beyond
                         : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
     VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
     VNDF_REAL w = -vndf_impl_log(at_edge ? rest : q * (VNDF_R(1.0) + p));
@@ -45,7 +49,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL x = outer || left ? -size : size;
 
     // The sign of x by its share of the projected area.
-    VNDF_REAL ratio = VNDF_R(0.5) * (x / i.a);
+    VNDF_REAL ratio = VNDF_R(0.5) * (x / vndf_impl_max(i.a, VNDF_IMPL_ROOT_LEAST));
     VNDF_REAL keep = VNDF_R(0.5) - ratio, swap = VNDF_R(0.5) + ratio;
     int mirror = u2 > keep;
     VNDF_REAL rcp = VNDF_R(1.0) / (mirror ? swap : keep);
@@ -58,13 +62,15 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha,
                                                                   VNDF_REAL2 u) {
-    struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
+    // Below the horizon, where this is not used, as above it: no quotient of it overflows.
+    struct vndf_impl_beckmann_frame f =
+        vndf_impl_beckmann_frame_of(VNDF_MAKE3(wo.x, wo.y, vndf_impl_abs(wo.z)), alpha);
     struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(f.slopes, vndf_impl_u(u.x), vndf_impl_u(u.y));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp:
     // rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
     VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    return vndf_impl_where(f.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y));
+    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map

@@ -32,7 +32,9 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     i.gaussian = slopes.gaussian;
     i.sigma = i.front ? hidden + c : slopes.hidden;
     i.hidden = hidden / i.sigma;
-    i.reach2 = VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? edge : VNDF_R(1.0));
+    // Far from the edge its Gaussian underflows: any large number serves, whose product with a logarithm is one.
+    VNDF_REAL least = VNDF_R(256.0) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
+    i.reach2 = VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? vndf_impl_max(edge, least) : VNDF_R(1.0));
     return i;
 }
 
@@ -110,24 +112,34 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
     mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
     // Next to the edge 1 - C is a difference of nearly equal terms.
     VNDF_REAL two_ay = VNDF_R(-2.0) * base * offset;
-    VNDF_REAL close = offset / i.reach2 * offset * vndf_impl_edge_series(two_ay, offset, exact);
     int series = upper && edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
+    VNDF_REAL y = series ? offset : VNDF_R(0.0);
+    VNDF_REAL close = y / i.reach2 * y * vndf_impl_edge_series(series ? two_ay : VNDF_R(0.0), y, exact);
     r.mass = series ? close : mass;
     r.density = VNDF_1_SQRT_PI * projection * e;
-    r.bend = i.s / projection - VNDF_R(2.0) * t;
+    r.bend = i.s / (projection > VNDF_R(0.0) ? projection : VNDF_R(1.0)) - VNDF_R(2.0) * t;
     return r;
+}
+
+// A slope within +-2^16 (double: 2^30): the cotangents that a cosine can have lie within, and beyond nothing of a Gaussian
+// is left.
+VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
+    VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1073741824.0) : VNDF_R(65536.0);
+    return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
 
 // The marginal density of visible slopes in the plane of incidence, alpha = 1.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
 // cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
-// x: slope of the normal (-x, ., 1), positive away from the view direction.
+// slope: x of the normal (-x, ., 1), positive away from the view direction.
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
 // Accuracy: 16 (1 + 2 q).
-VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
+    VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x), y = visible / sine;
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     VNDF_REAL exponent = i.front ? x * x : y * VNDF_FMA(VNDF_R(2.0), i.a, y);
     VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? visible : y) / i.sigma;
     VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
@@ -136,15 +148,17 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
 
 // Its cumulative distribution.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
-// cos_theta, x: as for vndf_beckmann_slope_pdf.
-// return: in [0, 1]; 1 for x >= cot(theta), and for cos_theta = -1, where nothing is visible.
+// cos_theta, slope: as for vndf_beckmann_slope_pdf.
+// return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
 // Accuracy: 16 (1 + 2 q).
-VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
+VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
+    VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
     VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     int edge = vndf_impl_slope_is_edge(i, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? visible / sine : -x, 0, 1).mass;
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? y : -x, 0, 1).mass;
     return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 
@@ -158,7 +172,9 @@ VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, int
     VNDF_REAL q =
         VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
     VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q;
-    VNDF_REAL edge = VNDF_SQRT(l * i.reach2);
+    // In front, beyond a = 32, the edge is out of reach.
+    int distant = i.front && i.a > VNDF_R(32.0);
+    VNDF_REAL edge = distant ? VNDF_R(0.25) * VNDF_REAL_MAX : VNDF_SQRT(l * i.reach2);
 
     VNDF_REAL part = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
     VNDF_REAL square = VNDF_SQRT(VNDF_FMA(part, part, VNDF_R(-6.80272109) * log_r)) - part;
@@ -169,8 +185,9 @@ VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, int
                                    : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
 
     // a^2 reach2 rises from 0 at a = 0 to 1/2.
-    VNDF_REAL steep = i.a * (i.a * i.reach2);
-    VNDF_REAL v = VNDF_FMA(VNDF_R(2.0) * i.a, edge, l * VNDF_FMA(VNDF_R(-0.5), steep, VNDF_R(1.0)));
+    VNDF_REAL steep = i.front ? VNDF_R(0.0) : i.a * (i.a * i.reach2);
+    VNDF_REAL twice = i.front ? VNDF_R(0.0) : VNDF_R(2.0) * i.a;
+    VNDF_REAL v = VNDF_FMA(twice, edge, l * VNDF_FMA(VNDF_R(-0.5), steep, VNDF_R(1.0)));
     VNDF_REAL behind = v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
     return i.front ? in_front : behind;
 }
@@ -264,7 +281,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
-    m.pdf = vndf_impl_finite(weight * rise / (alpha_x * alpha_y) * rise * rise);
+    struct vndf_impl_power w = vndf_impl_split(weight), up = vndf_impl_split(rise), pdf;
+    pdf.part = w.part * up.part / (alpha_x * alpha_y) * up.part * up.part;
+    pdf.exponent = w.exponent + 3 * up.exponent;
+    m.pdf = vndf_impl_finite(vndf_impl_bounded_power(pdf));
     return vndf_impl_where(length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX, m);
 }
 

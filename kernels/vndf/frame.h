@@ -47,11 +47,14 @@ VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
 }
 
-// a b for a, b >= 0, and the largest finite number where that is more: judged before the product is formed, so that
+// Whether a b, for a, b >= 0, is more than the largest finite number. It is judged before the product is formed, so that
 // nothing overflows, not even under compiler options that know no infinity.
+VNDF_FN int vndf_impl_beyond(VNDF_REAL a, VNDF_REAL b) {
+    return (a * VNDF_IMPL_ROOT_LEAST) * (b * VNDF_IMPL_ROOT_LEAST) >= VNDF_R(1.0);
+}
+// a b for a, b >= 0, and the largest finite number where that is more.
 VNDF_FN VNDF_REAL vndf_impl_bounded_product(VNDF_REAL a, VNDF_REAL b) {
-    int beyond = (a * VNDF_IMPL_ROOT_LEAST) * (b * VNDF_IMPL_ROOT_LEAST) >= VNDF_R(1.0);
-    return beyond ? VNDF_REAL_MAX : a * b;
+    return vndf_impl_beyond(a, b) ? VNDF_REAL_MAX : a * b;
 }
 
 // a / b for a, b >= 0 in the same way, also for b = 0.
@@ -120,6 +123,37 @@ VNDF_FN VNDF_REAL vndf_impl_scale(VNDF_REAL x) {
     VNDF_INT exponent = VNDF_AS_INT(x) & 0x7f800000;
     return VNDF_AS_REAL(0x7f000000 - exponent);
 #endif
+}
+
+// What x > 0 divides by: 1 / x = scale / part, part in [1, 2) and scale a power of two. The quotient by part does not
+// overflow, and its product with scale can be bounded. x = 0 counts as 1.
+struct vndf_impl_divisor {
+    VNDF_REAL part, scale;
+};
+VNDF_FN struct vndf_impl_divisor vndf_impl_divisor_of(VNDF_REAL x) {
+    struct vndf_impl_divisor d;
+    VNDF_REAL positive = x > VNDF_R(0.0) ? x : VNDF_R(1.0);
+    d.scale = vndf_impl_scale(positive);
+    d.part = positive * d.scale;
+    return d;
+}
+
+// x > 0 as a number in [1, 2) and a power of two.
+VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
+    struct vndf_impl_power s;
+    VNDF_REAL scale = vndf_impl_scale(x);
+    s.part = x * scale;
+    s.exponent = VNDF_IMPL_EXPONENT_BIAS - (VNDF_AS_INT(scale) >> VNDF_IMPL_MANTISSA_BITS);
+    return s;
+}
+
+// part 2^exponent for a part >= 0 of moderate size, at most the largest finite number.
+VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
+    VNDF_INT most = 2 * VNDF_IMPL_EXPONENT_BIAS - 2, all = x.exponent > most ? most : x.exponent;
+    all = all < -most ? -most : all;
+    VNDF_INT first = all >> 1;
+    return vndf_impl_bounded_product(vndf_impl_bounded_product(x.part, vndf_impl_exp2i(first)),
+                                     vndf_impl_exp2i(all - first));
 }
 
 // --- Directions and samples as scalars ---

@@ -53,10 +53,13 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
-    VNDF_REAL q = vndf_impl_ggx_q(slope.x, slope.y, VNDF_R(1.0), alpha_x, alpha_y);
-    // A slope whose square overflows leaves q infinite or NaN: nothing of the density is left.
-    VNDF_REAL p22 = VNDF_1_PI / ((q * alpha_x) * (q * alpha_y));
-    return q < VNDF_REAL_MAX ? vndf_impl_finite(p22) : VNDF_R(0.0);
+    // Beyond 2^58 alpha (double: 2^506 alpha) nothing of the density is left.
+    VNDF_REAL limit = VNDF_R(0.015625) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL x = vndf_impl_min(vndf_impl_abs(slope.x), alpha_x * limit),
+              y = vndf_impl_min(vndf_impl_abs(slope.y), alpha_y * limit);
+    VNDF_REAL q = vndf_impl_ggx_q(x, y, VNDF_R(1.0), alpha_x, alpha_y);
+    VNDF_REAL qx = q * alpha_x, qy = q * alpha_y;
+    return vndf_impl_beyond(qx, qy) ? VNDF_R(0.0) : VNDF_1_PI / (qx * qy);
 }
 
 // Smith's Lambda.
@@ -69,7 +72,8 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     VNDF_REAL z = vndf_impl_abs(w.z);
-    VNDF_REAL pole = (VNDF_R(0.5) * v.l / (v.r + z)) * (v.l / z);
+    struct vndf_impl_divisor d = vndf_impl_divisor_of(z);
+    VNDF_REAL pole = vndf_impl_bounded_product((VNDF_R(0.5) * v.l / (v.r + z)) * (v.l / d.part), d.scale);
     VNDF_REAL upper = vndf_impl_finite(z > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
@@ -108,7 +112,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_impl_view o = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
     struct vndf_impl_view i = vndf_impl_view_of(alpha_x * wi.x, alpha_y * wi.y, wi.z);
     int swap = wo.z > wi.z;
-    VNDF_REAL low = swap ? wi.z : wo.z, high = swap ? wo.z : wi.z;
+    VNDF_REAL low = vndf_impl_max(swap ? wi.z : wo.z, VNDF_R(0.0)), high = swap ? wo.z : wi.z;
     VNDF_REAL t_low = swap ? i.r : o.r, t_high = swap ? o.r : i.r;
     VNDF_REAL g2 =
         VNDF_R(2.0) * low / VNDF_FMA(t_high, low / (high > VNDF_R(0.0) ? high : VNDF_R(1.0)), t_low);
@@ -139,7 +143,9 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL pdf = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * cos_om / twice_sigma;
+    struct vndf_impl_divisor area = vndf_impl_divisor_of(twice_sigma);
+    VNDF_REAL share = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * cos_om / area.part;
+    VNDF_REAL pdf = vndf_impl_bounded_product(vndf_impl_max(share, VNDF_R(0.0)), area.scale);
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
@@ -171,8 +177,10 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 // D / (2 n) of the half vector, for a normaliser n.
 VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
-    VNDF_REAL ratio = h.length2 / h.q;
-    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / n) * ratio / (alpha_x * alpha_y);
+    VNDF_REAL ratio = h.length2 / (h.q > VNDF_R(0.0) ? h.q : VNDF_R(1.0));
+    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
+    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
+    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
     return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
@@ -208,10 +216,12 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
 // Accuracy: 16.
 VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
-    VNDF_REAL square = VNDF_FMA(x, x, VNDF_R(1.0)), p = VNDF_R(1.0) + cos_theta;
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    VNDF_REAL pdf = (visible / VNDF_SQRT(square)) / square / p;
-    return visible > VNDF_R(0.0) && p > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    // Nothing is left where the square of x would overflow.
+    int beyond = vndf_impl_beyond(vndf_impl_abs(x), vndf_impl_abs(x));
+    VNDF_REAL slope = beyond ? VNDF_R(0.0) : x, square = VNDF_FMA(slope, slope, VNDF_R(1.0));
+    VNDF_REAL p = VNDF_R(1.0) + cos_theta, visible = vndf_impl_visible_cosine(cos_theta, slope);
+    VNDF_REAL pdf = (visible / VNDF_SQRT(square)) / square / (p > VNDF_R(0.0) ? p : VNDF_R(1.0));
+    return visible > VNDF_R(0.0) && p > VNDF_R(0.0) && !beyond ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
 // Its cumulative distribution.
@@ -222,9 +232,11 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
 // Accuracy: 16.
 VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta), p = VNDF_R(1.0) + cos_theta;
-    VNDF_REAL root = VNDF_SQRT(VNDF_FMA(x, x, VNDF_R(1.0))), sum = root + vndf_impl_abs(x);
-    VNDF_REAL weight = x < VNDF_R(0.0) ? VNDF_R(1.0) / sum : sum;
-    VNDF_REAL cdf = (VNDF_FMA(cos_theta, weight, sine) / root) / p;
+    // Where the square of x would overflow, its root is |x|.
+    VNDF_REAL size = vndf_impl_min(vndf_impl_abs(x), VNDF_R(0.25) * VNDF_REAL_MAX);
+    VNDF_REAL root = vndf_impl_beyond(size, size) ? size : VNDF_SQRT(VNDF_FMA(size, size, VNDF_R(1.0)));
+    VNDF_REAL sum = root + size, weight = x < VNDF_R(0.0) ? VNDF_R(1.0) / sum : sum;
+    VNDF_REAL cdf = (VNDF_FMA(cos_theta, weight, sine) / root) / (p > VNDF_R(0.0) ? p : VNDF_R(1.0));
     int inside = vndf_impl_visible_cosine(cos_theta, x) > VNDF_R(0.0) && cdf < VNDF_R(1.0);
     return inside ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
@@ -265,7 +277,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
     VNDF_REAL p = VNDF_R(1.0) + cos_theta, q = VNDF_R(1.0) - cos_theta;
     struct vndf_impl_slope slope = vndf_impl_ggx_slope(
         cos_theta, sine, p, q, VNDF_SQRT(p > VNDF_R(0.0) ? p : VNDF_R(0.0)), vndf_impl_u(u1));
-    VNDF_REAL x = slope.sin_psi / slope.cos_psi;
+    VNDF_REAL x = slope.sin_psi / (slope.cos_psi > VNDF_R(0.0) ? slope.cos_psi : VNDF_R(1.0));
     return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
 

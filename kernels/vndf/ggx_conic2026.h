@@ -90,8 +90,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
     o.x *= rcp;
     o.y *= rcp;
     o.z *= rcp;
-    VNDF_REAL unit_n = n * rcp;
-    VNDF_REAL pdf = (VNDF_R(0.5) * VNDF_1_PI * ratio / unit_n) * ratio / (alpha_x * alpha_y);
+    struct vndf_impl_divisor d = vndf_impl_divisor_of(n * rcp);
+    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
+    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
@@ -334,9 +335,8 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     VNDF_REAL rcp_p = l.cap_p > VNDF_R(0.0) ? VNDF_R(1.0) / l.cap_p : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, mx, -l.alpha_x * l.wo_x * rcp_t),
               oy = VNDF_FMA(twice, my, -l.alpha_y * l.wo_y * rcp_t);
-    VNDF_REAL rest = twice * mz * rcp_p;
-    VNDF_REAL u2 =
-        VNDF_FMA(ox, ox, oy * oy) * rcp_p / VNDF_FMA(vndf_impl_max(rest, VNDF_R(0.0)), l.cap_p, l.cap_q);
+    VNDF_REAL rest = twice * mz * rcp_p, part = VNDF_FMA(vndf_impl_max(rest, VNDF_R(0.0)), l.cap_p, l.cap_q);
+    VNDF_REAL u2 = VNDF_FMA(ox, ox, oy * oy) * rcp_p / (part > VNDF_R(0.0) ? part : VNDF_R(1.0));
     u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
     int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
     VNDF_REAL u1 = above ? front.x : vndf_impl_turn(ox, oy);
@@ -351,7 +351,10 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, VNDF_MAKE2(alpha, alpha));
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
-    VNDF_REAL rcp_t = VNDF_R(1.0) / v.r, sz = v.z * rcp_t, sine = v.l * rcp_t;
+    // Behind the surface, where this is not used, as at normal incidence: no quotient of it overflows.
+    int above = v.z > VNDF_R(0.0);
+    VNDF_REAL rcp_t = VNDF_R(1.0) / v.r, sz = above ? v.z * rcp_t : VNDF_R(1.0),
+              sine = above ? v.l * rcp_t : VNDF_R(0.0);
     VNDF_REAL pole = sz * (v.alpha_x * v.alpha_x), weight = sine * sine;
     VNDF_REAL mu = vndf_impl_cone_quadratic(sz, pole, weight), b = mu + pole, rcp_b = VNDF_R(1.0) / b;
     VNDF_REAL difference = weight * rcp_b, mu1 = pole + difference, rcp_both = VNDF_R(1.0) / (mu + mu1);

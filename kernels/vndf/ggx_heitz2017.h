@@ -30,7 +30,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL ex = v.x * v.rcp_l, ey = v.rcp_l > VNDF_R(0.0) ? v.y * v.rcp_l : VNDF_R(1.0);
     struct vndf_impl_sample m =
         vndf_impl_ggx_unstretch(VNDF_FMA(along, ex, p1 * ey), VNDF_FMA(along, ey, -p1 * ex), hz, v.alpha_x,
-                                v.alpha_y, VNDF_R(2.0) * depth / cap.p);
+                                v.alpha_y, VNDF_R(2.0) * depth / (v.z >= VNDF_R(0.0) ? cap.p : VNDF_R(1.0)));
     return vndf_impl_where(v.z >= VNDF_R(0.0), m);
 }
 

@@ -67,13 +67,14 @@ VNDF_FN VNDF_REAL vndf_impl_cone_mu(VNDF_REAL sx2, VNDF_REAL sy2, VNDF_REAL z, V
     return vndf_impl_cone_newton(mu, sx2, sy2, z, ax, ay);
 }
 
-// For v.z > 0.
+// For v.z > 0. Behind the surface, where it is not used, as at normal incidence: no quotient of it overflows.
 VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_view v) {
     struct vndf_impl_cone c;
+    int above = v.z > VNDF_R(0.0);
     VNDF_REAL rcp_t = VNDF_R(1.0) / v.r;
-    c.sx = v.x * rcp_t;
-    c.sy = v.y * rcp_t;
-    c.sz = v.z * rcp_t;
+    c.sx = above ? v.x * rcp_t : VNDF_R(0.0);
+    c.sy = above ? v.y * rcp_t : VNDF_R(0.0);
+    c.sz = above ? v.z * rcp_t : VNDF_R(1.0);
     c.t = v.r;
     c.ax = c.sz * (v.alpha_x * v.alpha_x);
     c.ay = c.sz * (v.alpha_y * v.alpha_y);

@@ -147,6 +147,39 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
     return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
 }
 
+// A number as part 2^exponent.
+struct vndf_impl_power {
+    VNDF_REAL part;
+    VNDF_INT exponent;
+};
+
+// scale e^(x + low), |low| <= 1e-2, scale.part in [0, 2^60]: as vndf_impl_scaled_exp, but for a scale of any size, and never
+// more than the largest finite number.
+VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_impl_power scale) {
+    VNDF_REAL bounded = vndf_impl_min(vndf_impl_max(x, VNDF_IMPL_EXP_MIN), -VNDF_IMPL_EXP_MIN);
+    VNDF_REAL shifted = VNDF_FMA(bounded, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
+    VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
+    VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, bounded)) + low;
+#if VNDF_IMPL_STRICT
+    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+    VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
+#else
+    VNDF_REAL power = VNDF_IMPL_FAST(exp)(z);
+#endif
+    VNDF_INT most = 2 * VNDF_IMPL_EXPONENT_BIAS - 2,
+             all = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
+    all = all > most ? most : all;
+    all = all < -most ? -most : all;
+    VNDF_INT first = all >> 1, rest = all - first, middle = VNDF_IMPL_EXPONENT_BIAS - 1;
+    // 2^-most of the result, where its exponent is positive.
+    VNDF_REAL down = scale.part * power * vndf_impl_exp2i((all > 0 ? first : 0) - middle) *
+                     vndf_impl_exp2i((all > 0 ? rest : 0) - middle);
+    int beyond = down >= vndf_impl_exp2i(VNDF_IMPL_EXPONENT_BIAS + 1 - most);
+    VNDF_REAL result =
+        beyond ? VNDF_IMPL_MAX : scale.part * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(rest);
+    return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
+}
+
 // exp(x) for x <= 88 / 700; subnormal, then 0 below. Accuracy: 1.5 / 2; 1.02 ulp where the result is normal.
 VNDF_FN VNDF_REAL vndf_impl_exp(VNDF_REAL x) {
     return vndf_impl_scaled_exp(x, VNDF_R(0.0), VNDF_R(1.0));
@@ -205,7 +238,7 @@ VNDF_FN VNDF_REAL vndf_impl_erfc(VNDF_REAL x) {
 
 // erf(x) for x >= 0, whose erfc(x) is at hand. Accuracy: 5.4 / 5.4; 2.79 ulp.
 VNDF_FN VNDF_REAL vndf_impl_erf_of(VNDF_REAL x, VNDF_REAL erfc_x) {
-    VNDF_REAL z = x * x;
+    VNDF_REAL z = vndf_impl_square(vndf_impl_min(x, VNDF_R(1.0)));  // beyond 1/2 it is not used
     VNDF_IMPL_ERF(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     return x <= VNDF_R(0.5) ? VNDF_FMA(x, VNDF_R(1.125), p * x) : VNDF_R(1.0) - erfc_x;
 }
