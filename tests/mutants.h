@@ -450,6 +450,12 @@ inline const std::vector<Mutant>& mutants() {
          "vndf_ggx_sample_wm_dupuy2023",
          {"finite for finite arguments"}},
         // > for >= where it matters.
+        {"the way back to the silhouette in world space with a wrong sign along z",
+         "ggx_benyoub2024.h",
+         "hz = VNDF_FMA(back, vz, hz);",
+         "hz = VNDF_FMA(back, -vz, hz);",
+         "vndf_ggx_sample_wm_benyoub2024",
+         {"normal above the surface"}},
         {"2017: nothing at the horizon",
          "ggx_heitz2017.h",
          "return vndf_impl_where(v.z >= VNDF_R(0.0), m);",

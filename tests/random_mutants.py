@@ -2,23 +2,26 @@
 """Random operator mutants of the kernel headers: does the check notice them?
 
     random_mutants.py --build BUILD --work WORK [--seed N] [--count N] [--files PATTERN...] [--full]
+                      [--again INDEX...]
 
 BUILD: a built build folder (its libraries and clvndf_tests are used); WORK: a folder for what is compiled and for
 results.jsonl, a line for each mutant. A run that was interrupted goes on where it ended; --count N goes on to N mutants
-in all. The same seed and files make the same mutants. --list prints them and does no more; --show prints the survivors
-in WORK with their diffs. --files takes names below kernels/vndf, with * and ?.
+in all; --again judges the mutants of these numbers anew. The same seed and files make the same mutants. --list prints
+them and does no more; --show prints the survivors in WORK with their diffs. --files takes names below kernels/vndf,
+with * and ?.
 
 A mutant changes one thing: + - * / < <= > >= && || ! min max sin cos, a number by an ulp or a digit, a term of an fma or
 its sign, the sign of an operand, the choices of ?:, an x for a y. It is judged in steps, each only if the one before has
 not caught it:
 
-  1. the host build of the headers, in strict float, strict double and builtin float: the functions whose results change
-     over 2^12 inputs, else over 2^15 (none: "same bits"), and few points of `clvndf check`'s pointwise comparison for them;
-  2. all points of it;
-  3. the quick check of these functions on the device, with its statistics (clvndf_tests "a mutant from outside"); with
-     --full the full one as well.
+  1. the host build of the headers, in strict float, strict double and builtin float: few points of `clvndf check`'s
+     pointwise comparison, for the functions whose results change there;
+  2. the same with all points of the full check;
+  3. the quick check of the functions that change, on the device, with its statistics (clvndf_tests "a mutant from
+     outside"); with --full the full one as well.
 
-"builds not" is a mutant that a compiler refuses. The rest survive: explain them or teach the check to see them.
+"builds not" is a mutant that a compiler refuses; "same bits" one that changes no result at any of these points. They and
+what survives are to be explained, or the check taught to see them.
 Needs g++ and what BUILD is linked with. One process at a time.
 """
 import argparse
@@ -175,6 +178,7 @@ class Bench:
     """The changed headers, compiled and judged."""
 
     builds = [("float", "strict"), ("double", "strict"), ("float", "builtin")]
+    few, many = ("1024", "97"), ("65536", "1")  # random points, stride of the hard ones: part of the check, and all
 
     def __init__(self, build, work):
         self.build, self.work = build, work
@@ -188,11 +192,12 @@ class Bench:
         self.compile(project / "tests/support/mutant_host.cpp", self.main, "float", "strict")
         for real, math in self.builds:
             self.link(real, math)
-            for rows in ("4096", "32768"):
-                self.digests(real, math, rows).write_text(self.output([work / "mutant_host", real, math, rows]))
+            for points in (self.few, self.many):
+                command = [work / "mutant_host", real, math, *points]
+                self.hashes(real, math, points).write_text(self.output(command))
 
-    def digests(self, *build):
-        return self.work / f"digests_{'_'.join(build)}.txt"
+    def hashes(self, real, math, points):
+        return self.work / f"hashes_{real}_{math}_{points[0]}.txt"
 
     def compile(self, source, target, real, math):
         command = ["g++", "-std=c++20", "-O0", "-ffp-contract=off", "-w", f"-DVNDF_REAL={real}", f"-DVNDF_MATH={math}",
@@ -210,9 +215,8 @@ class Bench:
     def output(command, **more):
         return subprocess.run(command, check=True, capture_output=True, text=True, timeout=1800, **more).stdout
 
-    def on_host(self, *build_and_rows, points, stride):
-        out = self.output([self.work / "mutant_host", *build_and_rows, self.digests(*build_and_rows), str(points),
-                           str(stride)])
+    def on_host(self, real, math, points):
+        out = self.output([self.work / "mutant_host", real, math, *points, self.hashes(real, math, points)])
         lines = out.splitlines()
         caught = [line[7:] for line in lines if line.startswith("caught ")]
         return [line[8:] for line in lines if line.startswith("changed ")], caught[0] if caught else None
@@ -248,21 +252,16 @@ class Bench:
             target.write_text(text)
 
     def verdict(self, m, text, full):
-        for rows in ("4096", "32768"):
-            survived = {}
-            for points, stride in (1024, 97), (65536, 1):
-                for real, math in self.builds:
-                    if points > 1024 and (real, math) not in survived:
-                        continue
-                    self.link(real, math)
-                    changed, caught = self.on_host(real, math, rows, points=points, stride=stride)
-                    if caught:
-                        return {"verdict": "caught", "by": f"{math} {real}, {points} points: {caught}"}
-                    if changed:
-                        survived[real, math] = changed
-            if survived:
-                return self.device_verdict(m, text, survived, full)
-        return {"verdict": "same bits"}
+        survived = {}
+        for points in (self.few, self.many):
+            for real, math in self.builds:
+                self.link(real, math)
+                changed, caught = self.on_host(real, math, points)
+                if caught:
+                    return {"verdict": "caught", "by": f"{math} {real}, {points[0]} points: {caught}"}
+                if changed:
+                    survived[real, math] = changed
+        return self.device_verdict(m, text, survived, full) if survived else {"verdict": "same bits"}
 
     def device_verdict(self, m, text, survived, full):
         for (real, math), changed in survived.items():
@@ -282,6 +281,7 @@ def main():
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--files", nargs="+", default=["*.h"])
     parser.add_argument("--full", action="store_true")
+    parser.add_argument("--again", nargs="+", type=int, default=[], metavar="INDEX", help="judge these anew")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--show", action="store_true")
     options = parser.parse_args()
@@ -311,13 +311,13 @@ def main():
     done = {}
     for line in results.read_text().splitlines() if results.exists() else []:
         result = json.loads(line)
-        done[result["index"]] = result
+        done[result["index"]] = result  # the last one counts
     if not options.show:
         bench = Bench(options.build.resolve(), options.work.resolve())
         with results.open("a") as log:
             for m in mutants:
                 text = files[m["file"]]["text"]
-                if m["index"] in done:
+                if m["index"] in done and m["index"] not in options.again:
                     continue
                 done[m["index"]] = dict(m, **bench.judge(m, text, options.full), diff=diff(text, m))
                 log.write(json.dumps(done[m["index"]]) + "\n")

@@ -1,12 +1,15 @@
 // The pointwise part of `clvndf check` on the host build, for tests/random_mutants.py, which compiles
 // host/runtime/host_build.cpp with a changed header and links it in here.
 //
-//   mutant_host float|double strict|builtin ROWS     the digests (digest.h) of ROWS inputs a function
-//   mutant_host float|double strict|builtin ROWS DIGESTS POINTS STRIDE
+//   mutant_host float|double strict|builtin POINTS STRIDE           "NAME HASH" of the results, for each function
+//   mutant_host float|double strict|builtin POINTS STRIDE HASHES
 //
-// The second form prints "changed NAME" for each function whose digest is not the one in the file DIGESTS, then checks
-// these with POINTS random points and every STRIDEth hard one until one fails: "caught NAME: CHECK ...".
-// Exit status 0, whatever it finds.
+// Inputs: those of the check, with POINTS random ones and every STRIDEth hard one. The second form prints "changed NAME"
+// for each function whose hash is not the one in the file HASHES, then checks these until one fails:
+// "caught NAME: CHECK ...". Exit status 0, whatever it finds.
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -14,12 +17,22 @@
 
 #include <fmt/format.h>
 
-#include "conformance/judge/digest.h"
 #include "conformance/judge/pointwise.h"
 
 using namespace vndf;
 
 namespace {
+
+// FNV-1a; every NaN counts as the same.
+std::string hash_line(runtime::Evaluator& host, const Function& f,
+                      const conformance::PointwiseOptions& options) {
+    const auto table = conformance::pointwise_table(f, host.input_real(), options);
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const auto& column : conformance::evaluate(host, f, table))
+        for (const double x : column)
+            hash = (hash ^ (std::isnan(x) ? 1 : std::bit_cast<std::uint64_t>(x))) * 0x100000001b3;
+    return fmt::format("{} {:016x}", f.name, hash);
+}
 
 // Whether the function is caught.
 bool judge(runtime::Evaluator& host, const Function& f, const conformance::PointwiseOptions& options) {
@@ -35,31 +48,25 @@ bool judge(runtime::Evaluator& host, const Function& f, const conformance::Point
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4 && argc != 7) return 2;
+    if (argc != 5 && argc != 6) return 2;
     const runtime::Real real = std::string(argv[1]) == "double" ? runtime::Real::f64 : runtime::Real::f32;
-    const runtime::Math math =
-        std::string(argv[2]) == "builtin" ? runtime::Math::builtin : runtime::Math::strict;
-    runtime::HostEvaluator host(math, real);
-    conformance::BitsOptions bits;
-    bits.rows = std::strtoul(argv[3], nullptr, 10), bits.math = math;
-    std::vector<const Function*> all;
-    for (const Function& function : functions()) all.push_back(&function);
-    const auto digests = conformance::digests(host, all, bits);
-    if (argc == 4) {
-        fmt::print("{}", conformance::format_digests(digests));
-        return 0;
-    }
-    std::ifstream file(argv[4]);
-    std::set<std::string> known;
-    for (std::string line; std::getline(file, line);) known.insert(line + "\n");
-    std::vector<const Function*> changed;
-    for (const auto& digest : digests)
-        if (!known.count(conformance::format_digests({digest}))) changed.push_back(digest.function);
-    for (const Function* f : changed) fmt::print("changed {}\n", f->name);
     conformance::PointwiseOptions options;
-    options.math = math;
-    options.random_points = std::strtoul(argv[5], nullptr, 10);
-    options.hard_stride = std::strtoul(argv[6], nullptr, 10);
+    options.math = std::string(argv[2]) == "builtin" ? runtime::Math::builtin : runtime::Math::strict;
+    options.random_points = std::strtoul(argv[3], nullptr, 10);
+    options.hard_stride = std::strtoul(argv[4], nullptr, 10);
+    runtime::HostEvaluator host(options.math, real);
+    std::set<std::string> known;
+    if (argc == 6) {
+        std::ifstream file(argv[5]);
+        for (std::string line; std::getline(file, line);) known.insert(line);
+    }
+    std::vector<const Function*> changed;
+    for (const Function& f : functions()) {
+        const std::string line = hash_line(host, f, options);
+        if (argc == 5) fmt::print("{}\n", line);
+        if (argc == 6 && !known.count(line)) changed.push_back(&f);
+    }
+    for (const Function* f : changed) fmt::print("changed {}\n", f->name);
     for (const Function* f : changed)
         if (judge(host, *f, options)) break;
     return 0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -13,18 +12,10 @@ namespace vndf {
 // Unit vectors along an axis and in the planes between two, with every pattern of signs of their zeros; and one without.
 inline std::vector<std::array<double, 3>> directions_with_zeros() {
     std::vector<std::array<double, 3>> all{{-0.48, 0.6, 0.64}};
-    for (const std::array<double, 3>& v : std::initializer_list<std::array<double, 3>>{{0, 0, 1},
-                                                                                       {0, 0, -1},
-                                                                                       {1, 0, 0},
-                                                                                       {-1, 0, 0},
-                                                                                       {0, 1, 0},
-                                                                                       {0, -1, 0},
-                                                                                       {0, 0.6, 0.8},
-                                                                                       {0, -0.8, -0.6},
-                                                                                       {0.6, 0, 0.8},
-                                                                                       {-0.8, 0, 0.6},
-                                                                                       {0.8, 0, -0.6},
-                                                                                       {0.8, -0.6, 0}})
+    const std::array<double, 3> bases[] = {{0, 0, 1},     {0, 0, -1},     {1, 0, 0},      {-1, 0, 0},
+                                           {0, 1, 0},     {0, -1, 0},     {0, 0.6, 0.8},  {0, -0.8, -0.6},
+                                           {0.6, 0, 0.8}, {-0.8, 0, 0.6}, {0.8, 0, -0.6}, {0.8, -0.6, 0}};
+    for (const std::array<double, 3>& v : bases)
         for (int signs = 0; signs < 8; ++signs) {
             std::array<double, 3> w = v;
             bool each_once = true;

@@ -156,7 +156,7 @@ std::vector<Point> clamped_points(const Function& function) {
 
 // Samples next to the silhouette: the last values of one u, where the azimuth by the other is opposite to wo's (either
 // way round: world-space maps turn it by half), to the nearest numbers.
-std::vector<Point> silhouette_points() {
+std::vector<Point> silhouette_points(const Direction& n) {
     constexpr double azimuth = .7, turn = azimuth / 6.28318530717958648;
     std::vector<Point> points;
     for (const double alpha : {1e-4, 1e-2, .5, 1., 2.})
@@ -166,17 +166,15 @@ std::vector<Point> silhouette_points() {
                     for (int ulps = -2; ulps <= 2; ++ulps) {
                         const Direction wo = direction(cos_theta, azimuth);
                         const double near = u + ulps * 0x1p-24;
-                        points.push_back(
-                            make_point(wo, {alpha, alpha}, {1, 0}, {0, 0, 1}, {near, 1 - last}, 1.5));
-                        points.push_back(
-                            make_point(wo, {alpha, alpha}, {1, 0}, {0, 0, 1}, {1 - last, near}, 1.5));
+                        points.push_back(make_point(wo, {alpha, alpha}, {1, 0}, n, {near, 1 - last}, 1.5));
+                        points.push_back(make_point(wo, {alpha, alpha}, {1, 0}, n, {1 - last, near}, 1.5));
                     }
     // Along an axis, stretched a thousand times: the half vector keeps the sign of its cosine with wo only if both terms
     // of the cosine are right to their last bits.
     for (const double cos_theta : {.95, .9, .8, .6, .5, .3, .1})
         for (int last = 1; last <= 16; ++last)
             for (const double u : {0., .5})
-                points.push_back(make_point(direction(cos_theta, 0), {1e3, 1e-8}, {1, 0}, {0, 0, 1},
+                points.push_back(make_point(direction(cos_theta, 0), {1e3, 1e-8}, {1, 0}, n,
                                             {u, 1 - last * 0x1p-24}, 1.5));
     return points;
 }
@@ -279,9 +277,12 @@ std::vector<Point> guard_points(const Function& function) {
         for (const Point& point : level_points()) points.push_back(point);
     if (uses(function, {"wi_x"}))
         for (const Point& point : returning_points()) points.push_back(point);
+    std::vector<Direction> axes{{0, 0, 1}};
+    if (uses(function, {"n_x"})) axes = {{0, 0, 1}, direction(.4, -2), direction(-.9, .4)};
     if (uses(function, {"u1"}))
-        for (const auto& some : {silhouette_points(), grazing_points()})
-            points.insert(points.end(), some.begin(), some.end());
+        for (const Direction& n : axes)
+            for (const auto& some : {silhouette_points(n), grazing_points()})
+                points.insert(points.end(), some.begin(), some.end());
     if (uses(function, {"eta"})) {
         std::vector<Point> straight = straight_points();
         refract_some(function, straight);
