@@ -298,7 +298,7 @@ TEST_CASE("bench that fails leaves no folder that it made") {
     for (const std::string arguments :
          {"--report new/report --device nosuch", "--report new/report --compare bad", "--report file/report",
           "--report file", "--report new/report --json new/report/bench.json", "--json bad --compare bad",
-          "--report new/report --json nowhere/a.json"}) {
+          "--report new/report --json nowhere/a.json", "--report new/$(printf %0300d 0)"}) {
         CAPTURE(arguments);
         CHECK(shell(folder, bench + arguments + " >out 2>err") == 2);
         CAPTURE(folder.read("err"));

@@ -59,7 +59,7 @@ TemporaryFolder::TemporaryFolder(const std::string& prefix) {
     const fs::path parent = fs::temp_directory_path(none);
     path_ = (none ? fs::path() : fs::absolute(parent) / (prefix + "XXXXXX")).string();
     int ends[2];
-    if (none || !mkdtemp(path_.data()) || pipe2(ends, O_CLOEXEC) != 0) {
+    if (none || pipe2(ends, O_CLOEXEC) != 0 || !mkdtemp(path_.data())) {
         const char* const variable = std::getenv("TMPDIR");
         throw InputError(fmt::format("{} '{}': cannot create a folder for temporary files there: {}",
                                      variable ? "TMPDIR" : "temporary folder",
@@ -96,12 +96,18 @@ NewFolder::NewFolder(const std::string& path) {
     for (fs::path folder = fs::absolute(path, failure); missing(folder); folder = folder.parent_path()) {
         created_.insert(created_.begin(), folder.string());
     }
-    fs::create_directories(path, failure);
-    if (failure) throw InputError(fmt::format("{}: cannot create this folder: {}", path, failure.message()));
     for (const std::string& folder : created_) remove_on_signal(folder);
+    fs::create_directories(path, failure);
+    if (!failure) return;
+    remove();
+    throw InputError(fmt::format("{}: cannot create this folder: {}", path, failure.message()));
 }
 
 NewFolder::~NewFolder() {
+    remove();
+}
+
+void NewFolder::remove() {
     std::error_code ignored;
     for (std::size_t i = created_.size(); i-- > 0;) fs::remove(created_[i], ignored);
     keep();

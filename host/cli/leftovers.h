@@ -40,6 +40,8 @@ class NewFolder {
     void keep();
 
   private:
+    void remove();
+
     std::vector<std::string> created_;
 };
 
