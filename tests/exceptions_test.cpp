@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "conformance/errors.h"
-#include "conformance/samplers.h"
+#include "conformance/judge/errors.h"
+#include "conformance/judge/samplers.h"
 #include "runtime/host_build.h"
 #include "support/catch.h"
 
