@@ -28,6 +28,11 @@ VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
     VNDF_REAL low = alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
     return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;
 }
+// The same, the ends in the other order: alpha_x and alpha_y by one form would be packed (see vndf_impl_view_of).
+VNDF_FN VNDF_REAL vndf_impl_alpha_y(VNDF_REAL alpha) {
+    VNDF_REAL high = alpha > VNDF_ALPHA_MAX ? VNDF_ALPHA_MAX : alpha;
+    return high > VNDF_ALPHA_MIN ? high : VNDF_ALPHA_MIN;
+}
 
 // u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
 VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
@@ -207,7 +212,7 @@ VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF
     return v;
 }
 VNDF_FN struct vndf_impl_view vndf_impl_stretch(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
     v.alpha_x = alpha_x;
     v.alpha_y = alpha_y;
@@ -347,11 +352,14 @@ VNDF_FN struct vndf_impl_pair vndf_impl_eta_sum(VNDF_REAL o, VNDF_REAL eta, VNDF
 // Accuracy: relative error at most 16 units of 2^-24 (double: 2^-53) for the arguments as given, where |wi . m| is above
 //     one unit; below, the rounding of wi has left nothing of it.
 VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL eta) {
-    struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x), y = vndf_impl_eta_sum(wo.y, eta, wi.y),
-                          z = vndf_impl_eta_sum(wo.z, eta, wi.z);
+    // Never the second choice: each component waits for the one before, since LLVM would pack the alike sums (see
+    // vndf_impl_view_of).
+    struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x);
+    struct vndf_impl_pair y = vndf_impl_eta_sum(wo.y, x.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.y);
+    struct vndf_impl_pair z = vndf_impl_eta_sum(wo.z, y.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.z);
     // h times a power of two, since its square may underflow.
-    VNDF_REAL largest =
-        vndf_impl_max(vndf_impl_max(vndf_impl_abs(x.head), vndf_impl_abs(y.head)), vndf_impl_abs(z.head));
+    VNDF_REAL largest = vndf_impl_max(vndf_impl_abs(x.head), y.head);
+    largest = vndf_impl_max(vndf_impl_max(largest, -y.head), vndf_impl_abs(z.head));
     VNDF_REAL scale = vndf_impl_scale(largest), hx = x.head * scale, hy = y.head * scale, hz = z.head * scale;
     VNDF_REAL h = VNDF_SQRT(VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)));
     // wi . h in twice the precision: it vanishes at grazing transmission.
