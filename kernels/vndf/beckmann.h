@@ -123,11 +123,11 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
     VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
     VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), most = VNDF_R(0.25) * VNDF_REAL_MAX;
-    // The same bits for wo and wi exchanged: both sums are of equals.
-    VNDF_REAL sum = vndf_impl_min(lambda_o, most) + vndf_impl_min(lambda_i, most);
-    int above = vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0);
-    return above ? vndf_impl_share(VNDF_R(1.0) / (VNDF_R(1.0) + sum)) : VNDF_R(0.0);
+    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), quarter = VNDF_R(0.25);
+    // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
+    // exchanged.
+    VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_share(quarter / sum) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).

@@ -40,16 +40,17 @@ VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
     return low < VNDF_U_MAX ? low : VNDF_U_MAX;
 }
 
-// What arguments beyond the domain leave of a positive number, of a component and of a share: infinity and NaN count as the
-// largest number, as 0 and as 1. In the domain nothing is left for them to do.
+// What arguments beyond the domain leave of a positive number and of a share: infinity and NaN count as the largest number
+// and as 1. In the domain nothing is left for them to do.
 VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
 }
-VNDF_FN VNDF_REAL vndf_impl_component(VNDF_REAL x) {
-    return vndf_impl_abs(x) <= VNDF_REAL_MAX ? x : VNDF_R(0.0);
-}
 VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
+}
+// Whether all components are numbers: 0 times anything else is none.
+VNDF_FN int vndf_impl_is_finite(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+    return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0))) == VNDF_R(0.0);
 }
 
 // Whether a b, for a, b >= 0, is more than the largest finite number. It is judged before the product is formed, so that
@@ -289,9 +290,10 @@ VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b
 // Accuracy: components within 4 units of 2^-24 (double: 2^-53).
 VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    return VNDF_MAKE3(vndf_impl_component(VNDF_FMA(twice, wm.x, -wo.x)),
-                      vndf_impl_component(VNDF_FMA(twice, wm.y, -wo.y)),
-                      vndf_impl_component(VNDF_FMA(twice, wm.z, -wo.z)));
+    VNDF_REAL x = VNDF_FMA(twice, wm.x, -wo.x), y = VNDF_FMA(twice, wm.y, -wo.y),
+              z = VNDF_FMA(twice, wm.z, -wo.z);
+    int finite = vndf_impl_is_finite(x, y, z);
+    return VNDF_MAKE3(finite ? x : VNDF_R(0.0), finite ? y : VNDF_R(0.0), finite ? z : VNDF_R(0.0));
 }
 
 // The refracted direction of wo through a facet wm.
@@ -314,9 +316,10 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL cos2 = VNDF_FMA(sin2, contrast, c1 * c1);
     int valid = c > VNDF_R(0.0) && thick && cos2 >= VNDF_R(0.0);
     VNDF_REAL k = VNDF_FMA(c, rcp_eta, -VNDF_SQRT(cos2 > VNDF_R(0.0) ? cos2 : VNDF_R(0.0)));
-    VNDF_REAL x = vndf_impl_component(VNDF_FMA(k, wm.x, -wo.x * rcp_eta));
-    VNDF_REAL y = vndf_impl_component(VNDF_FMA(k, wm.y, -wo.y * rcp_eta));
-    VNDF_REAL z = vndf_impl_component(VNDF_FMA(k, wm.z, -wo.z * rcp_eta));
+    VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
+    VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
+    VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
+    valid = valid & vndf_impl_is_finite(x, y, z);
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 
