@@ -265,9 +265,9 @@ inline const std::vector<Mutant>& mutants() {
         {"alpha squared in the density alone",
          "ggx.h",
          "VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {\n"
-         "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);",
+         "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);",
          "VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {\n"
-         "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x * alpha.x), alpha_y = vndf_impl_alpha(alpha.y * "
+         "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x * alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y * "
          "alpha.y);",
          "vndf_ggx_pdf_wm",
          {"pointwise, maximum"}},
@@ -348,7 +348,7 @@ inline const std::vector<Mutant>& mutants() {
          {"pointwise, maximum"}},
         {"one of two alphas not raised",
          "frame.h",
-         "alpha_y = vndf_impl_alpha(alpha.y);",
+         "alpha_y = vndf_impl_alpha_y(alpha.y);",
          "alpha_y = alpha.y;",
          "vndf_ggx_sample_wm_dupuy2023",
          {"density of the exact sample"}},

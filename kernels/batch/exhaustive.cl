@@ -36,7 +36,7 @@ VNDF_FN int vndf_exhaustive_unit(VNDF_REAL4 d, VNDF_REAL slack) {
 // What is rounded to eps, apart from wi itself, is the sampler's half vector in the stretched frame, whose length is
 // h2 / (r sqrt(q)): that moves wi by alpha r q / h2 eps.
 VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 wi, VNDF_REAL rest) {
-    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha(alpha.y);
+    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL rx = VNDF_R(1.0) / ax, ry = VNDF_R(1.0) / ay;
     VNDF_REAL r = VNDF_SQRT(ax * wo.x * ax * wo.x + ay * wo.y * ay * wo.y + wo.z * wo.z);
     VNDF_REAL z = vndf_impl_max(wo.z, VNDF_R(0.0));
@@ -53,7 +53,7 @@ VNDF_FN int vndf_exhaustive_in_cap(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL4 w
 
 // 1 - k of Equation 6, and of the polygon bound: the least ratio of its vertices.
 VNDF_FN VNDF_REAL vndf_exhaustive_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    VNDF_REAL low = vndf_impl_min(vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    VNDF_REAL low = vndf_impl_min(vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
     VNDF_REAL a = vndf_impl_min(low, VNDF_R(1.0)), z = vndf_impl_max(wo.z, VNDF_R(0.0));
     VNDF_REAL s = VNDF_R(1.0) + VNDF_SQRT(wo.x * wo.x + wo.y * wo.y);
     return a * a * (s * s + z * z) / (s * s + a * a * z * z);
@@ -64,7 +64,7 @@ VNDF_FN VNDF_REAL vndf_exhaustive_ratio(VNDF_REAL low, VNDF_REAL high, VNDF_REAL
     return low * low * (x + y + z2) / (slant * x * slant + y + low * z2 * low);
 }
 VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha(alpha.y);
+    VNDF_REAL ax = vndf_impl_alpha(alpha.x), ay = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL low = vndf_impl_min(ax, ay), high = vndf_impl_max(ax, ay);
     VNDF_REAL along = VNDF_R(1.0) + vndf_impl_abs(ax < ay ? wo.x : wo.y);
     VNDF_REAL sine = VNDF_SQRT(wo.x * wo.x + wo.y * wo.y), s = VNDF_R(1.0) + sine, z2 = wo.z * wo.z;

@@ -53,7 +53,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VN
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
 // Accuracy: 8 (1 + 2 q).
 VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+    return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
 }
 
 // The distribution of slopes P22.
@@ -64,14 +64,14 @@ VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 8 (1 + 2 q).
 VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(slope.x, slope.y, VNDF_R(1.0), vndf_impl_alpha(alpha.x),
-                                vndf_impl_alpha(alpha.y));
+                                vndf_impl_alpha_y(alpha.y));
 }
 
 // l = |(alpha_x w.x, alpha_y w.y)|: the products carry their rounding errors along, since a product of two G1 has no
 // units to spare. They are taken 2^27 times larger, against underflow.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL ax = vndf_impl_alpha(alpha.x) * VNDF_R(134217728.0),
-              ay = vndf_impl_alpha(alpha.y) * VNDF_R(134217728.0);
+              ay = vndf_impl_alpha_y(alpha.y) * VNDF_R(134217728.0);
     VNDF_REAL x = ax * w.x, y = ay * w.y, low = VNDF_FMA(x, VNDF_FMA(ax, w.x, -x), y * VNDF_FMA(ay, w.y, -y));
     return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
 }
@@ -123,11 +123,11 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
     VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
     VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), most = VNDF_R(0.25) * VNDF_REAL_MAX;
-    // The same bits for wo and wi exchanged: both sums are of equals.
-    VNDF_REAL sum = vndf_impl_min(lambda_o, most) + vndf_impl_min(lambda_i, most);
-    int above = vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0);
-    return above ? vndf_impl_share(VNDF_R(1.0) / (VNDF_R(1.0) + sum)) : VNDF_R(0.0);
+    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), quarter = VNDF_R(0.25);
+    // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
+    // exchanged.
+    VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_share(quarter / sum) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -173,7 +173,8 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     int front = wo.z >= VNDF_R(0.0);
     // Slopes beyond 2^62 (double: 2^510) have the density 0.
     VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
-    VNDF_REAL sx = x / v.alpha_x / z, sy = y / v.alpha_y / z;
+    // sy waits for sx, which is finite: side by side they would be packed (frame.h).
+    VNDF_REAL sx = x / v.alpha_x / z, sy = (sx <= VNDF_REAL_MAX ? y : VNDF_R(0.0)) / v.alpha_y / z;
     VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
     VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
     // tau = cosine / (z l): both times a power of two, since the product may underflow.
@@ -187,8 +188,11 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     int away = rounded && !front && tau < VNDF_R(0.0);
     VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
     // Powers of two apart: below the horizon l I(a) may be as small as weight.
+    // Each waits for the one before, which is positive: side by side they would be packed (frame.h).
     struct vndf_impl_power area = vndf_impl_split(front ? VNDF_FMA(l * s.gaussian, s.hidden, wo.z) : l),
-                           least = vndf_impl_split(s.hidden), up = vndf_impl_split(rise), scale;
+                           scale;
+    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? s.hidden : VNDF_R(1.0));
+    struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
     VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
     scale.part = VNDF_1_PI * share * up.part / (v.alpha_x * v.alpha_y) * up.part;
     scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);

@@ -281,7 +281,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
-    struct vndf_impl_power w = vndf_impl_split(weight), up = vndf_impl_split(rise), pdf;
+    // The weight waits for the rise, which is positive: side by side the two would be packed (frame.h).
+    struct vndf_impl_power up = vndf_impl_split(rise),
+                           w = vndf_impl_split(up.part > VNDF_R(0.0) ? weight : VNDF_R(1.0)), pdf;
     pdf.part = w.part * up.part / (alpha_x * alpha_y) * up.part * up.part;
     pdf.exponent = w.exponent + 3 * up.exponent;
     m.pdf = vndf_impl_finite(vndf_impl_bounded_power(pdf));

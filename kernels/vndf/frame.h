@@ -28,6 +28,11 @@ VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
     VNDF_REAL low = alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
     return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;
 }
+// The same, the ends in the other order: alpha_x and alpha_y by one form would be packed (see vndf_impl_view_of).
+VNDF_FN VNDF_REAL vndf_impl_alpha_y(VNDF_REAL alpha) {
+    VNDF_REAL high = alpha > VNDF_ALPHA_MAX ? VNDF_ALPHA_MAX : alpha;
+    return high > VNDF_ALPHA_MIN ? high : VNDF_ALPHA_MIN;
+}
 
 // u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
 VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
@@ -35,16 +40,17 @@ VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
     return low < VNDF_U_MAX ? low : VNDF_U_MAX;
 }
 
-// What arguments beyond the domain leave of a positive number, of a component and of a share: infinity and NaN count as the
-// largest number, as 0 and as 1. In the domain nothing is left for them to do.
+// What arguments beyond the domain leave of a positive number and of a share: infinity and NaN count as the largest number
+// and as 1. In the domain nothing is left for them to do.
 VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
 }
-VNDF_FN VNDF_REAL vndf_impl_component(VNDF_REAL x) {
-    return vndf_impl_abs(x) <= VNDF_REAL_MAX ? x : VNDF_R(0.0);
-}
 VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
+}
+// Whether all components are numbers: 0 times anything else is none.
+VNDF_FN int vndf_impl_is_finite(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+    return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0))) == VNDF_R(0.0);
 }
 
 // Whether a b, for a, b >= 0, is more than the largest finite number. It is judged before the product is formed, so that
@@ -207,7 +213,7 @@ VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF
     return v;
 }
 VNDF_FN struct vndf_impl_view vndf_impl_stretch(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
     v.alpha_x = alpha_x;
     v.alpha_y = alpha_y;
@@ -284,9 +290,10 @@ VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b
 // Accuracy: components within 4 units of 2^-24 (double: 2^-53).
 VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    return VNDF_MAKE3(vndf_impl_component(VNDF_FMA(twice, wm.x, -wo.x)),
-                      vndf_impl_component(VNDF_FMA(twice, wm.y, -wo.y)),
-                      vndf_impl_component(VNDF_FMA(twice, wm.z, -wo.z)));
+    VNDF_REAL x = VNDF_FMA(twice, wm.x, -wo.x), y = VNDF_FMA(twice, wm.y, -wo.y),
+              z = VNDF_FMA(twice, wm.z, -wo.z);
+    int finite = vndf_impl_is_finite(x, y, z);
+    return VNDF_MAKE3(finite ? x : VNDF_R(0.0), finite ? y : VNDF_R(0.0), finite ? z : VNDF_R(0.0));
 }
 
 // The refracted direction of wo through a facet wm.
@@ -309,9 +316,10 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL cos2 = VNDF_FMA(sin2, contrast, c1 * c1);
     int valid = c > VNDF_R(0.0) && thick && cos2 >= VNDF_R(0.0);
     VNDF_REAL k = VNDF_FMA(c, rcp_eta, -VNDF_SQRT(cos2 > VNDF_R(0.0) ? cos2 : VNDF_R(0.0)));
-    VNDF_REAL x = vndf_impl_component(VNDF_FMA(k, wm.x, -wo.x * rcp_eta));
-    VNDF_REAL y = vndf_impl_component(VNDF_FMA(k, wm.y, -wo.y * rcp_eta));
-    VNDF_REAL z = vndf_impl_component(VNDF_FMA(k, wm.z, -wo.z * rcp_eta));
+    VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
+    VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
+    VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
+    valid = valid & vndf_impl_is_finite(x, y, z);
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 
@@ -347,11 +355,14 @@ VNDF_FN struct vndf_impl_pair vndf_impl_eta_sum(VNDF_REAL o, VNDF_REAL eta, VNDF
 // Accuracy: relative error at most 16 units of 2^-24 (double: 2^-53) for the arguments as given, where |wi . m| is above
 //     one unit; below, the rounding of wi has left nothing of it.
 VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL eta) {
-    struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x), y = vndf_impl_eta_sum(wo.y, eta, wi.y),
-                          z = vndf_impl_eta_sum(wo.z, eta, wi.z);
+    // Never the second choice: each component waits for the one before, since LLVM would pack the alike sums (see
+    // vndf_impl_view_of).
+    struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x);
+    struct vndf_impl_pair y = vndf_impl_eta_sum(wo.y, x.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.y);
+    struct vndf_impl_pair z = vndf_impl_eta_sum(wo.z, y.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.z);
     // h times a power of two, since its square may underflow.
-    VNDF_REAL largest =
-        vndf_impl_max(vndf_impl_max(vndf_impl_abs(x.head), vndf_impl_abs(y.head)), vndf_impl_abs(z.head));
+    VNDF_REAL largest = vndf_impl_max(vndf_impl_abs(x.head), y.head);
+    largest = vndf_impl_max(vndf_impl_max(largest, -y.head), vndf_impl_abs(z.head));
     VNDF_REAL scale = vndf_impl_scale(largest), hx = x.head * scale, hy = y.head * scale, hz = z.head * scale;
     VNDF_REAL h = VNDF_SQRT(VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)));
     // wi . h in twice the precision: it vanishes at grazing transmission.

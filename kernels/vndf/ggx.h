@@ -39,7 +39,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL 
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
     VNDF_REAL d = VNDF_1_PI / ((q * alpha_x) * (q * alpha_y));
     return wm.z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
@@ -52,7 +52,7 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // return: per unit of slope area, integral 1.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     // Beyond 2^58 alpha (double: 2^506 alpha) nothing of the density is left.
     VNDF_REAL limit = VNDF_R(0.015625) / VNDF_IMPL_ROOT_LEAST;
     VNDF_REAL x = vndf_impl_min(vndf_impl_abs(slope.x), alpha_x * limit),
@@ -69,7 +69,7 @@ VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 //     the projected area everywhere. The largest finite number (largest negative below) at the pole w.z = 0.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     VNDF_REAL z = vndf_impl_abs(w.z);
     struct vndf_impl_divisor d = vndf_impl_divisor_of(z);
@@ -86,7 +86,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8, also below the horizon.
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
-        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
     return vndf_impl_finite(VNDF_R(0.5) * twice_sigma);
 }
 
@@ -97,7 +97,7 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
-        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y));
+        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
     return w.z > VNDF_R(0.0) ? vndf_impl_share(VNDF_R(2.0) * w.z / twice_sigma) : VNDF_R(0.0);
 }
 
@@ -108,7 +108,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view o = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
     struct vndf_impl_view i = vndf_impl_view_of(alpha_x * wi.x, alpha_y * wi.y, wi.z);
     int swap = wo.z > wi.z;
@@ -139,7 +139,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
 // return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
 // Accuracy: 16, also where wo . wm or 1 + wo.z nearly vanish.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
@@ -192,7 +192,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REA
 // Accuracy: 16 for the vectors as given. Below alpha = 1e-2 the rounding of wi moves the density by more than
 //     that: use a sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     return vndf_impl_ggx_reflection_pdf(h, twice_sigma, alpha_x, alpha_y);

@@ -12,7 +12,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_walter2007(VNDF_REAL2 alpha, VNDF_
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
     VNDF_REAL radius = VNDF_SQRT(u1), height = VNDF_SQRT(VNDF_R(1.0) - u1);
     return vndf_impl_ggx_unstretch(radius * vndf_impl_circle_cos(u2), radius * vndf_impl_circle_sin(u2),
-                                   height, vndf_impl_alpha(alpha.x), vndf_impl_alpha(alpha.y), height);
+                                   height, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y), height);
 }
 
 // A normal with density proportional to D(wm) wm.z, whatever the view direction.
