@@ -329,7 +329,7 @@ void Session::add(const Function& function, Math math, Real real) {
 void Session::add_steps(const Function& function) {
     if (!has_steps(function)) return;
     // Every form but the last keeps the last step, which alone is taken with the accurate residual.
-    const std::string file = "kernels/vndf/beckmann_slopes.h",
+    const std::string file = "kernels/vndf/impl/beckmann_slopes.h",
                       first = "VNDF_REAL offset = VNDF_IMPL_STEP(start, 0)",
                       second = "offset = VNDF_IMPL_STEP(offset, 0)",
                       last = "return VNDF_IMPL_STEP(offset, 1)", none = "VNDF_REAL offset = start";

@@ -13,37 +13,8 @@
 #ifndef VNDF_BECKMANN_H
 #define VNDF_BECKMANN_H
 
-#include "config.h"
-#include "impl/math.h"
-#include "frame.h"
-
-// A direction as the slopes of the stretched surface see it.
-struct vndf_impl_slopes {
-    VNDF_REAL a;         // |cot theta|, at most 2^60 (double: 2^120)
-    VNDF_REAL hidden;    // I(|a|)
-    VNDF_REAL gaussian;  // e^(-a^2)
-};
-// The limit: beyond it a Gaussian is cut nowhere, or seen at a cosine that rounds to 0; l = 0 is normal incidence.
-VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
-    struct vndf_impl_slopes s;
-    VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1.329227995784916e36) : VNDF_R(1152921504606846976.0);
-    s.a = l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
-    s.hidden = vndf_impl_ierfcx(s.a);
-    s.gaussian = vndf_impl_expx2(s.a);
-    return s;
-}
-
-// D for a normal (x, y, z), taken literally.
-VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
-                                       VNDF_REAL alpha_y) {
-    // Where z is below 2^-16, or a slope beyond 2^20 alpha, the exponential is 0.
-    VNDF_REAL up = vndf_impl_max(z, VNDF_R(1.52587890625e-05)), limit = VNDF_R(1048576.0);
-    VNDF_REAL z2 = up * up, sx = vndf_impl_min(vndf_impl_abs(x), alpha_x * limit) / alpha_x / up,
-              sy = vndf_impl_min(vndf_impl_abs(y), alpha_y * limit) / alpha_y / up;
-    VNDF_REAL d = vndf_impl_scaled_exp(-VNDF_FMA(sx, sx, sy * sy), VNDF_R(0.0),
-                                       VNDF_1_PI / ((z2 * alpha_x) * (z2 * alpha_y)));
-    return z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
-}
+#include "impl/beckmann_slopes.h"
+#include "impl/beckmann_terms.h"
 
 // The distribution of normals D.
 // Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 25 (m = wm), in the
@@ -65,21 +36,6 @@ VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(slope.x, slope.y, VNDF_R(1.0), vndf_impl_alpha(alpha.x),
                                 vndf_impl_alpha_y(alpha.y));
-}
-
-// l = |(alpha_x w.x, alpha_y w.y)|: the products carry their rounding errors along, since a product of two G1 has no
-// units to spare. They are taken 2^27 times larger, against underflow.
-VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL ax = vndf_impl_alpha(alpha.x) * VNDF_R(134217728.0),
-              ay = vndf_impl_alpha_y(alpha.y) * VNDF_R(134217728.0);
-    VNDF_REAL x = ax * w.x, y = ay * w.y, low = VNDF_FMA(x, VNDF_FMA(ax, w.x, -x), y * VNDF_FMA(ay, w.y, -y));
-    return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
-}
-
-// Lambda of w or -w, whichever is above the horizon.
-VNDF_FN VNDF_REAL vndf_impl_beckmann_upper_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
-    return vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a);
 }
 
 // Smith's Lambda.
@@ -119,7 +75,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wi's terms wait for wo's, since side by side the two would be packed (frame.h).
+    // wi's terms wait for wo's, since side by side the two would be packed (impl/stretch.h).
     VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
     VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
@@ -137,73 +93,6 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
-}
-
-// The exponent of D / sigma(wo) behind the surface, q - a^2, for a normal that faces away from wo, as a sum of two
-// numbers: q is small beside a^2 = (wo.z / l)^2, which is computed in twice the precision.
-VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL q, VNDF_REAL alpha_x,
-                                                        VNDF_REAL alpha_y) {
-    VNDF_REAL up = VNDF_R(134217728.0), ax = alpha_x * up, ay = alpha_y * up, z = wo.z * up;
-    VNDF_REAL x = ax * wo.x, y = ay * wo.y, x2 = x * x, y2 = y * y, z2 = z * z;
-    // At least 2^-70 (double: 2^-518), against infinity: beyond lies a view that sees nothing.
-    VNDF_REAL l2 = vndf_impl_max(x2 + y2, VNDF_R(0.015625) * VNDF_IMPL_ROOT_LEAST), a2 = z2 / l2;
-    VNDF_REAL cross = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
-    VNDF_REAL squares = VNDF_FMA(x, x, -x2) + (VNDF_FMA(y, y, -y2) + vndf_impl_sum_error(x2, y2, l2));
-    VNDF_REAL l2_low = VNDF_FMA(VNDF_R(2.0), cross, squares);
-    VNDF_REAL a2_low = (VNDF_FMA(-a2, l2, z2) + (VNDF_FMA(z, z, -z2) - a2 * l2_low)) / l2;
-    struct vndf_impl_pair exponent;
-    VNDF_REAL head = q - a2, tail = vndf_impl_sum_error(q, -a2, head) - a2_low, sum = head + tail;
-    // Where a is large the tail may be more than a correction of the exponential (math.h).
-    int beyond = vndf_impl_abs(tail) > VNDF_R(1e-2);
-    exponent.head = beyond ? sum : head;
-    exponent.tail =
-        beyond ? vndf_impl_min(vndf_impl_max(tail - (sum - head), VNDF_R(-1e-2)), VNDF_R(1e-2)) : tail;
-    return exponent;
-}
-
-// weight D / sigma(wo) for a normal (x, y, z), z > 0: 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
-// rounding. Behind the surface the exponents of D and sigma combine: with the slope |a| + tau along wo and y across,
-// q - a^2 = tau (2 |a| + tau) + y^2. A normal that faces away (tau < 0) occurs only as the half vector of two rounded
-// directions.
-VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_REAL y, VNDF_REAL z,
-                                             VNDF_REAL cosine, int rounded, VNDF_REAL rise, VNDF_REAL weight,
-                                             VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, wo.z);
-    int front = wo.z >= VNDF_R(0.0);
-    // Slopes beyond 2^62 (double: 2^510) have the density 0.
-    VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
-    // sy waits for sx, which is finite: side by side they would be packed (frame.h).
-    VNDF_REAL sx = x / v.alpha_x / z, sy = (sx <= VNDF_REAL_MAX ? y : VNDF_R(0.0)) / v.alpha_y / z;
-    VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
-    VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
-    // tau = cosine / (z l): both times a power of two, since the product may underflow.
-    VNDF_REAL l = v.l > VNDF_R(0.0) ? v.l : VNDF_R(1.0),
-              tau = cosine / VNDF_IMPL_ROOT_LEAST / (z / VNDF_IMPL_ROOT_LEAST * l);
-    VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
-    VNDF_REAL across =
-        vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, v.y, sy, v.x) * v.rcp_l), limit);
-    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), s.a, lean), across * across);
-    struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
-    int away = rounded && !front && tau < VNDF_R(0.0);
-    VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
-    // Powers of two apart: below the horizon l I(a) may be as small as weight.
-    // Each waits for the one before, which is positive: side by side they would be packed (frame.h).
-    struct vndf_impl_power area = vndf_impl_split(front ? VNDF_FMA(l * s.gaussian, s.hidden, wo.z) : l),
-                           scale;
-    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? s.hidden : VNDF_R(1.0));
-    struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
-    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
-    scale.part = VNDF_1_PI * share * up.part / (v.alpha_x * v.alpha_y) * up.part;
-    scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
-    VNDF_REAL result =
-        vndf_impl_finite(vndf_impl_bounded_exp(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale));
-    return front || v.l > VNDF_R(0.0) ? result : VNDF_R(0.0);
-}
-
-// z > 0 at least 2^-62 (double: 2^-510), below which slopes are too large for any number.
-VNDF_FN VNDF_REAL vndf_impl_beckmann_height(VNDF_REAL z) {
-    return vndf_impl_max(z, VNDF_R(4.0) * VNDF_IMPL_ROOT_LEAST);
 }
 
 // The distribution of visible normals: the density of every vndf_beckmann_sample_wm_* but walter2007.
@@ -250,6 +139,58 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
 // Accuracy: 16 (1 + 2 q).
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_finite(vndf_beckmann_ndf(wm, alpha) * wm.z);
+}
+
+// --- Visible slopes at alpha = 1, in the plane of incidence ---
+
+// The marginal density of visible slopes in the plane of incidence, alpha = 1.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
+// cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
+// slope: x of the normal (-x, ., 1), positive away from the view direction.
+// return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
+// Accuracy: 16 (1 + 2 q).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
+    VNDF_REAL x = vndf_impl_slope(slope);
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    VNDF_REAL exponent = i.front ? x * x : y * VNDF_FMA(VNDF_R(2.0), i.a, y);
+    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? visible : y) / i.sigma;
+    VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
+    return visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+// Its cumulative distribution.
+// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
+// cos_theta, slope: as for vndf_beckmann_slope_pdf.
+// return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
+// Accuracy: 16 (1 + 2 q).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
+    VNDF_REAL x = vndf_impl_slope(slope);
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
+    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
+    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    int edge = vndf_impl_slope_is_edge(i, 0);
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? y : -x, 0, 1).mass;
+    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
+}
+
+// The inverse of vndf_beckmann_slope_cdf.
+// Source: Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014, whose equation in erf x
+//     is solved here in x, in forms that do not cancel.
+// cos_theta: in [-1, 1].
+// u1: probability.
+// return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
+// Accuracy: 16 (1 + condition number).
+VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
+    struct vndf_impl_incidence_slopes i =
+        vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));
+    VNDF_REAL u = vndf_impl_u(u1);
+    int edge = vndf_impl_slope_is_edge(i, vndf_impl_slope_is_upper(u));
+    VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
+    return cos_theta > VNDF_R(-1.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
 
 #endif

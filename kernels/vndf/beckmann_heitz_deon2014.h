@@ -5,7 +5,8 @@
 #ifndef VNDF_BECKMANN_HEITZ_DEON2014_H
 #define VNDF_BECKMANN_HEITZ_DEON2014_H
 
-#include "beckmann_slopes.h"
+#include "beckmann.h"
+#include "impl/beckmann_slopes.h"
 
 // The slope x, and of the second number u2, used again where it chose the sign of x: 1 - 2 u2 and u2 (1 - u2).
 struct vndf_impl_folded_slope {

@@ -6,7 +6,8 @@
 #ifndef VNDF_BECKMANN_JAKOB2014_H
 #define VNDF_BECKMANN_JAKOB2014_H
 
-#include "beckmann_slopes.h"
+#include "beckmann.h"
+#include "impl/beckmann_slopes.h"
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);

@@ -5,7 +5,8 @@
 #ifndef VNDF_BECKMANN_WALTER2007_H
 #define VNDF_BECKMANN_WALTER2007_H
 
-#include "beckmann_slopes.h"
+#include "beckmann.h"
+#include "impl/beckmann_slopes.h"
 
 // tan(theta) = sqrt(-log(1 - u1)) before the stretch; e^(-tan(theta)^2) is 1 - u1.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, VNDF_REAL2 u) {

@@ -9,27 +9,10 @@
 #ifndef VNDF_GGX_H
 #define VNDF_GGX_H
 
-#include "config.h"
-#include "impl/math.h"
-#include "frame.h"
-
-// q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its
-// rounding error along.
-VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
-                                  VNDF_REAL alpha_y) {
-    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
-    VNDF_REAL low_x = VNDF_FMA(-sx, alpha_x, x) * rcp_x, low_y = VNDF_FMA(-sy, alpha_y, y) * rcp_y;
-    VNDF_REAL low = VNDF_R(2.0) * VNDF_FMA(sx, low_x, sy * low_y);
-    return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, VNDF_FMA(z, z, low)));
-}
-
-// 2 sigma = z + t, or l^2 / (t - z) for z < 0, where the sum would cancel.
-VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
-                                            VNDF_REAL alpha_y) {
-    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * x, alpha_y * y, z);
-    VNDF_REAL sum = v.r + vndf_impl_abs(z);
-    return z >= VNDF_R(0.0) ? sum : v.l * (v.l / sum);
-}
+#include "impl/exact.h"
+#include "impl/mirror.h"
+#include "impl/slopes.h"
+#include "impl/stretch.h"
 
 // The distribution of normals D.
 // Source: Walter et al. 2007, Equation 33 (m = wm), in the anisotropic vector form of Heitz, Understanding
@@ -125,7 +108,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8.
 VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wi's factor waits for wo's, 0 or not: side by side the two would be packed (frame.h).
+    // wi's factor waits for wo's, 0 or not: side by side the two would be packed (impl/stretch.h).
     VNDF_REAL g1 = vndf_ggx_g1(wo, alpha);
     VNDF_REAL2 alpha_i =
         VNDF_MAKE2(g1 > VNDF_R(0.0) ? alpha.x : VNDF_R(1.0), g1 > VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
@@ -148,40 +131,6 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha
     VNDF_REAL pdf = vndf_impl_bounded_product(vndf_impl_max(share, VNDF_R(0.0)), area.scale);
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-}
-
-// Half vector h = wo + wi of the vectors as given, times a power of two `scale`; its squared length; q of D.
-struct vndf_impl_half {
-    VNDF_REAL z, length2, q, scale;
-    VNDF_REAL q_slope;  // half the 1-norm of dq/dh
-};
-VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL alpha_x,
-                                                VNDF_REAL alpha_y) {
-    struct vndf_impl_half h;
-    VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
-    VNDF_REAL largest = vndf_impl_max(vndf_impl_max(vndf_impl_abs(x), vndf_impl_abs(y)), vndf_impl_abs(z));
-    h.scale = vndf_impl_scale(largest);
-    x *= h.scale;
-    y *= h.scale;
-    h.z = z * h.scale;
-    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y;
-    // Quotients with little more than one rounding; of two shapes: alike they would be packed (frame.h).
-    VNDF_REAL sx = x * rcp_x, sy = y * rcp_y;
-    sx += VNDF_FMA(-sx, alpha_x, x) * rcp_x;
-    sy = VNDF_FMA(VNDF_FMA(-sy, alpha_y, y), rcp_y, sy);
-    h.length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, h.z * h.z));
-    h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
-    h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, vndf_impl_abs(h.z)));
-    return h;
-}
-// D / (2 n) of the half vector, for a normaliser n.
-VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
-                                               VNDF_REAL alpha_y) {
-    VNDF_REAL ratio = h.length2 / (h.q > VNDF_R(0.0) ? h.q : VNDF_R(1.0));
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
-    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
-    return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
 // The density of the reflection of wo about a visible normal.
@@ -241,31 +190,6 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     return inside ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 
-// sin and cos of the angle psi whose slope x = tan psi has the visible cumulative probability u1.
-// Source: Heitz & d'Eon 2014, supplement 1, Section 4.2. The distribution is affine in s = sin(theta + psi):
-//     s = u1 (1 + c) - c with c = cos theta, and cos(theta + psi) = sqrt((1 - s)(1 + s)) with both factors
-//     formed without a difference; no root has to be chosen, and every theta is valid.
-struct vndf_impl_slope {
-    VNDF_REAL sin_psi, cos_psi;
-    VNDF_REAL visible;  // cos(theta + psi) / sqrt(1 + c)
-};
-VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, VNDF_REAL p, VNDF_REAL q,
-                                                   VNDF_REAL sqrt_p, VNDF_REAL u1) {
-    struct vndf_impl_slope slope;
-    VNDF_REAL up = u1 * p, s = up - c;
-    slope.visible = VNDF_SQRT((VNDF_R(1.0) - u1) * (up + q));
-    VNDF_REAL cosine = sqrt_p * slope.visible;
-    slope.sin_psi = VNDF_FMA(s, c, -cosine * sine);
-    // cos psi = cosine c + s sine; its product with the conjugate is (c - s)(c + s), for opposite signs.
-    VNDF_REAL direct = VNDF_FMA(cosine, c, s * sine);
-    // The denominator is 0 where nothing is visible: a normal on the horizon.
-    VNDF_REAL other = VNDF_FMA(cosine, c, -s * sine);
-    VNDF_REAL conjugate = up * (VNDF_R(2.0) * c - up) / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
-    int opposite = (s < VNDF_R(0.0)) != (c < VNDF_R(0.0));
-    slope.cos_psi = opposite ? conjugate : direct;
-    return slope;
-}
-
 // The inverse of vndf_ggx_slope_cdf.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 4.2.
 // cos_theta: in [-1, 1].
@@ -279,29 +203,6 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
         cos_theta, sine, p, q, VNDF_SQRT(p > VNDF_R(0.0) ? p : VNDF_R(0.0)), vndf_impl_u(u1));
     VNDF_REAL x = slope.sin_psi / (slope.cos_psi > VNDF_R(0.0) ? slope.cos_psi : VNDF_R(1.0));
     return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
-}
-
-// --- What the samplers share ---
-
-// Unstretches h, a normal of any length in the stretched frame, and normalises it. The density of the result
-// is weight |g|^3 / (pi alpha_x alpha_y |h|^4), g = (alpha_x h.x, alpha_y h.y, h.z): dividing by the length
-// that h has, not by the one it should have, keeps the density accurate.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL hy, VNDF_REAL hz,
-                                                        VNDF_REAL alpha_x, VNDF_REAL alpha_y,
-                                                        VNDF_REAL weight) {
-    struct vndf_impl_sample m;
-    VNDF_REAL gx = alpha_x * hx, gy = alpha_y * hy;
-    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
-    // length2 = 0 needs h = 0, the reflection of wo into -wo: no normal is defined, density 0.
-    int defined = length2 > VNDF_R(0.0);
-    m.x = defined ? gx * rcp : VNDF_R(0.0);
-    m.y = defined ? gy * rcp : VNDF_R(0.0);
-    m.z = defined ? hz * rcp : VNDF_R(1.0);
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = length2 / h2;
-    VNDF_REAL pdf = VNDF_1_PI * (weight * length / (h2 * alpha_x * alpha_y)) * ratio;
-    m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return m;
 }
 
 #endif

@@ -7,6 +7,8 @@
 #define VNDF_GGX_BENYOUB2024_H
 
 #include "ggx.h"
+#include "impl/caps.h"
+#include "impl/exact.h"
 
 // n x w, each component with the error of one rounding.
 struct vndf_impl_vector {
@@ -105,7 +107,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_benyoub2024_with_pdf(VNDF_REAL3 wo, VNDF_R
 // Accuracy: 16 for the vectors as given.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wm, VNDF_REAL alpha) {
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    // In another order than wo . n: two products of one shape would be packed (frame.h).
+    // In another order than wo . n: two products of one shape would be packed (impl/stretch.h).
     VNDF_REAL wm_z = vndf_impl_dot(n.z, n.x, n.y, wm.z, wm.x, wm.y);
     VNDF_REAL wo_z = vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z);
     VNDF_REAL a = vndf_impl_alpha(alpha);

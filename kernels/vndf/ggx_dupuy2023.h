@@ -6,6 +6,7 @@
 #define VNDF_GGX_DUPUY2023_H
 
 #include "ggx.h"
+#include "impl/caps.h"
 
 // With P = 1 + z, Q = 1 - z of the stretched view direction, the reflection o on the cap has 1 - o.z = u2 P
 // and 1 + o.z = (1 - u2) P + Q, and the half vector divided by sqrt(P) is

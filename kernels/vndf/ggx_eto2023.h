@@ -8,6 +8,8 @@
 #define VNDF_GGX_ETO2023_H
 
 #include "ggx.h"
+#include "impl/caps.h"
+#include "impl/mirror.h"
 
 // Equations 5 and 6: 1 - k without a difference; k counts beside 1. The conservative alpha is at most 1.
 struct vndf_impl_bound {
@@ -44,24 +46,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf
         vndf_impl_azimuth_x(v), vndf_impl_azimuth_y(v), tangent, tangent * tangent,
         sin_o * vndf_impl_circle_cos(u1), sin_o * vndf_impl_circle_sin(u1), square,
         height * vndf_impl_cap_excess(u2, rest, b, cap.q, VNDF_FMA(bound.k, cap.z, cap.z)), height * sqrt_b);
-    // Reflect about the normal g of any length: no rounding of g can tilt the mirror.
-    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
-    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
-    VNDF_REAL cosine = VNDF_FMA(wo.x, gx, VNDF_FMA(wo.y, gy, wo.z * h.z));
-    VNDF_REAL h2 = VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    int defined = g2 > VNDF_R(0.0);
-    VNDF_REAL twice = defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
-    VNDF_REAL ox = VNDF_FMA(twice, gx, -wo.x), oy = VNDF_FMA(twice, gy, -wo.y),
-              oz = VNDF_FMA(twice, h.z, -wo.z);
-    VNDF_REAL o2 = VNDF_FMA(ox, ox, VNDF_FMA(oy, oy, oz * oz)), rcp_o = VNDF_R(1.0) / VNDF_SQRT(o2);
-    o.x = ox * rcp_o;
-    o.y = oy * rcp_o;
-    o.z = oz * rcp_o;
-    VNDF_REAL ratio = g2 / h2, n = (front ? n_front : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (v.alpha_x * v.alpha_y);
-    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
-    o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    struct vndf_impl_mirror m = vndf_impl_mirror_of(wo.x, wo.y, wo.z, h.x, h.y, h.z, v.alpha_x, v.alpha_y);
+    VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, m.z * m.z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    o.x = m.x * rcp;
+    o.y = m.y * rcp;
+    o.z = m.z * rcp;
+    VNDF_REAL n = (front ? n_front : vndf_impl_hidden_area(v)) / VNDF_SQRT(wo2);
+    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n, v.alpha_x, v.alpha_y);
+    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
 
@@ -106,7 +98,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct
     VNDF_REAL slack = VNDF_R(4.0) * VNDF_EPSILON * h.scale *
                       (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
     int inside = wo.z <= VNDF_R(0.0) || excess > -slack;
-    VNDF_REAL n = wo.z > VNDF_R(0.0) ? n_front : v.l * (v.l / (v.r + vndf_impl_abs(wo.z)));
+    VNDF_REAL n = wo.z > VNDF_R(0.0) ? n_front : vndf_impl_hidden_area(v);
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
     return inside ? pdf : VNDF_R(0.0);
 }

@@ -6,6 +6,7 @@
 #define VNDF_GGX_HEITZ2017_H
 
 #include "ggx.h"
+#include "impl/caps.h"
 
 // P = 1 + V.z. The half disk that faces the viewer has probability 1 / P and angle pi u2 P; the tangent one
 // is entered from its far end, at the angle pi (1 - u2) P / V.z, so that neither forms u2 - 1 / P. Its height

@@ -6,6 +6,7 @@
 #define VNDF_GGX_HEITZ2018_H
 
 #include "ggx.h"
+#include "impl/caps.h"
 
 // The point (t1, b) of the unit disc becomes (t1, t) of the cross section, t = (Q R + P b) / 2 with
 // R = sqrt(1 - t1^2), and the normal t1 w1 + t w2 + t_i v. Where the listing subtracts: R - |b| is

@@ -6,6 +6,8 @@
 #define VNDF_GGX_HEITZ_DEON2014_H
 
 #include "ggx.h"
+#include "impl/caps.h"
+#include "impl/slopes.h"
 
 // What both forms share: the azimuth of the stretched view direction, (1, 0) if it has none, and the slope in
 // the plane of incidence.

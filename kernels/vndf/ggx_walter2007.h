@@ -6,6 +6,7 @@
 #define VNDF_GGX_WALTER2007_H
 
 #include "ggx.h"
+#include "impl/stretch.h"
 
 // tan(theta) = sqrt(u1 / (1 - u1)) before the stretch: the normal (sqrt(u1) e(phi), sqrt(1 - u1)).
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_walter2007(VNDF_REAL2 alpha, VNDF_REAL2 u) {

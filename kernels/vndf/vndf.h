@@ -35,8 +35,7 @@
 #define VNDF_VERSION_PATCH 0
 
 #include "config.h"
-#include "impl/math.h"
-#include "frame.h"
+#include "geometry.h"
 
 #include "ggx.h"
 #include "ggx_heitz_deon2014.h"

@@ -1,4 +1,4 @@
-// The reflections of a GGX lobe above the horizon: how many there are, and their density.
+// The reflections of a GGX lobe above the horizon: how many there are.
 //
 // Source: this package; derivation, figures and how to verify it: ggx_conic2026.md. No earlier publication was found.
 //     A visible normal, stretched back to the unit vector m, reflects wo above the horizon where m^T Q m > 0,
@@ -9,7 +9,7 @@
 #ifndef VNDF_IMPL_CONE_H
 #define VNDF_IMPL_CONE_H
 
-#include "../ggx.h"
+#include "stretch.h"
 
 // The eigenvalue mu is the positive root of mu = s.z + s.x^2 / (mu + A_x) + s.y^2 / (mu + A_y), A_x = s.z alpha_x^2.
 struct vndf_impl_cone {
@@ -97,47 +97,9 @@ VNDF_FN VNDF_REAL vndf_impl_cone_share(struct vndf_impl_cone c) {
 
 // 2 sigma_vis; above the surface alone it differs from 2 sigma.
 VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(struct vndf_impl_view v) {
-    VNDF_REAL plain = v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
+    VNDF_REAL plain = vndf_impl_hidden_area(v);
     VNDF_REAL visible = VNDF_R(2.0) * v.r * vndf_impl_cone_share(vndf_impl_cone_of(v));
     return v.z > VNDF_R(0.0) ? visible : plain;
-}
-
-// The part of the projected area of the microsurface whose normals reflect wo above the horizon.
-// Source: ggx_conic2026.md: t mu^2 / ((1 + e^2 + f^2) sqrt((mu + A_x)(mu + A_y))).
-// w: unit vector, local frame, anywhere on the sphere. For w.z <= 0 every visible normal reflects above the horizon:
-//     vndf_ggx_sigma.
-// alpha: in [1e-8, 1e3] each.
-// return: in [0, sigma(w)], per unit area of the macrosurface: sigma times the integral of vndf_ggx_pdf_wi over wi.z > 0.
-// Accuracy: 16 (9.2 found), asserted by `clvndf check`; double against quadrature along the horizon: 1e-12.
-VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return vndf_impl_finite(VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha)));
-}
-
-// The probability that the reflection of wo about a visible normal lies above the horizon.
-// Source: ggx_conic2026.md: sigma_vis / sigma.
-// w: unit vector, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each.
-// return: in [0, 1]; 1 for w.z <= 0.
-// Accuracy: 16 (8.3 found).
-VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
-    struct vndf_impl_cone c = vndf_impl_cone_of(v);
-    VNDF_REAL p = VNDF_R(2.0) * vndf_impl_cone_share(c) / (VNDF_R(1.0) + c.sz);
-    return v.z > VNDF_R(0.0) ? vndf_impl_share(p) : VNDF_R(1.0);
-}
-
-// The density of the reflection of wo about a visible normal, given that it lies above the horizon: D / (4 sigma_vis).
-// Source: ggx_conic2026.md; it is vndf_ggx_pdf_wi over the reflection probability.
-// wo, wi: unit vectors, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each.
-// return: per steradian of wi; 0 for wi.z <= 0 above the surface. For wo.z <= 0 the same as vndf_ggx_pdf_wi.
-// Accuracy: 24 (16.2 found) for the vectors as given: 16 of D, the rest of sigma_vis. Below alpha = 1e-2 the rounding of
-//     wi moves the density by more than that: use the sampler's _with_pdf form there.
-VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, v.alpha_x, v.alpha_y);
-    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, vndf_impl_twice_sigma_visible(v), v.alpha_x, v.alpha_y);
-    return wi.z > VNDF_R(0.0) || wo.z <= VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
 #undef VNDF_IMPL_CONE_LEAST

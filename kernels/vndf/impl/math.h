@@ -10,7 +10,7 @@
 #ifndef VNDF_IMPL_MATH_H
 #define VNDF_IMPL_MATH_H
 
-#include "../config.h"
+#include "shim.h"
 #include "polynomials.h"
 
 #define VNDF_IMPL_STRICT (VNDF_POLICY == 0)

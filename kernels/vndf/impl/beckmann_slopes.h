@@ -5,10 +5,10 @@
 // s y e^(-t^2) / (sqrt(pi) sigma); with I of beckmann.h, the distribution function of x = -t is
 //     C = [s y erfcx(t) / 2 + s I(t)] e^(-t^2) / sigma,
 // all terms positive for t > 0. Masses above 3/4 are replaced by their complements, also formed without cancellation.
-#ifndef VNDF_BECKMANN_SLOPES_H
-#define VNDF_BECKMANN_SLOPES_H
+#ifndef VNDF_IMPL_BECKMANN_SLOPES_H
+#define VNDF_IMPL_BECKMANN_SLOPES_H
 
-#include "beckmann.h"
+#include "beckmann_terms.h"
 
 // The view direction, s > 0 or c > 0. Behind the surface s e^(-a^2) is left out of all terms: s is 1, sigma and the
 // exponents are relative to it.
@@ -128,40 +128,6 @@ VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
     return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
 
-// The marginal density of visible slopes in the plane of incidence, alpha = 1.
-// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
-// cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
-// slope: x of the normal (-x, ., 1), positive away from the view direction.
-// return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
-// Accuracy: 16 (1 + 2 q).
-VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
-    VNDF_REAL x = vndf_impl_slope(slope);
-    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
-    VNDF_REAL exponent = i.front ? x * x : y * VNDF_FMA(VNDF_R(2.0), i.a, y);
-    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? visible : y) / i.sigma;
-    VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
-    return visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-}
-
-// Its cumulative distribution.
-// Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
-// cos_theta, slope: as for vndf_beckmann_slope_pdf.
-// return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
-// Accuracy: 16 (1 + 2 q).
-VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
-    VNDF_REAL x = vndf_impl_slope(slope);
-    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
-    int edge = vndf_impl_slope_is_edge(i, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? y : -x, 0, 1).mass;
-    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
-}
-
 // Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
 // the Gaussian is cut far away, and below sqrt(L reach2), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for
 // a = 0, and the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
@@ -228,22 +194,6 @@ VNDF_FN VNDF_REAL vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i, i
 #undef VNDF_IMPL_STEP
 }
 
-// The inverse of vndf_beckmann_slope_cdf.
-// Source: Jakob, An Improved Visible Normal Sampling Routine for the Beckmann Distribution, 2014, whose equation in erf x
-//     is solved here in x, in forms that do not cancel.
-// cos_theta: in [-1, 1].
-// u1: probability.
-// return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
-// Accuracy: 16 (1 + condition number).
-VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
-    struct vndf_impl_incidence_slopes i =
-        vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));
-    VNDF_REAL u = vndf_impl_u(u1);
-    int edge = vndf_impl_slope_is_edge(i, vndf_impl_slope_is_upper(u));
-    VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
-    return cos_theta > VNDF_R(-1.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
-}
-
 // --- What the samplers share ---
 
 // The plane of incidence of a stretched view direction: its azimuth, (1, 0) if it has none, and its slopes.
@@ -281,7 +231,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
-    // The weight waits for the rise, which is positive: side by side the two would be packed (frame.h).
+    // The weight waits for the rise, which is positive: side by side the two would be packed (impl/stretch.h).
     struct vndf_impl_power up = vndf_impl_split(rise),
                            w = vndf_impl_split(up.part > VNDF_R(0.0) ? weight : VNDF_R(1.0)), pdf;
     pdf.part = w.part * up.part / (alpha_x * alpha_y) * up.part * up.part;

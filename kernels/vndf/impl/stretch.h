@@ -1,0 +1,116 @@
+// Directions and samples as scalars, the stretched view direction, and what GGX is in it.
+//
+// Internals take and return scalars: vector arithmetic in a body keeps CPU devices from vectorising a kernel.
+#ifndef VNDF_IMPL_STRETCH_H
+#define VNDF_IMPL_STRETCH_H
+
+#include "range.h"
+
+struct vndf_impl_sample {
+    VNDF_REAL x, y, z, pdf;
+};
+VNDF_FN VNDF_REAL3 vndf_impl_direction(struct vndf_impl_sample s) {
+    return VNDF_MAKE3(s.x, s.y, s.z);
+}
+VNDF_FN VNDF_REAL4 vndf_impl_direction_pdf(struct vndf_impl_sample s) {
+    return VNDF_MAKE4(s.x, s.y, s.z, s.pdf);
+}
+
+// What a sampler returns where its method is not defined, and where the length of wo has left the range of
+// numbers: the macroscopic normal, with density 0.
+VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sample m) {
+    struct vndf_impl_sample s;
+    s.x = defined ? m.x : VNDF_R(0.0);
+    s.y = defined ? m.y : VNDF_R(0.0);
+    s.z = defined ? m.z : VNDF_R(1.0);
+    s.pdf = defined ? m.pdf : VNDF_R(0.0);
+    return s;
+}
+
+// The stretched view direction v = (alpha_x wo.x, alpha_y wo.y, wo.z), of any length, in stable terms.
+struct vndf_impl_view {
+    VNDF_REAL alpha_x, alpha_y;  // clamped
+    VNDF_REAL x, y, z;           // v
+    VNDF_REAL r, l;              // |v|, and the length of its tangential part
+    VNDF_REAL rcp_l;             // 1 / l, 0 for l = 0
+    VNDF_REAL t, rcp_t;          // sqrt(r (r + |z|))
+};
+
+// Squares of alpha wo.x are formed 2^27 times larger: they keep full precision down to wo.x = 1e-19 for every
+// alpha in the domain, and the largest, (2^27 1e3)^2, is far from overflow. Each root feeds the next: LLVM
+// packs independent roots into short vectors, and the kernel around them is then not vectorised.
+VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF_REAL vz) {
+    struct vndf_impl_view v;
+    VNDF_REAL kx = vx * VNDF_R(134217728.0), ky = vy * VNDF_R(134217728.0);
+    VNDF_REAL kl = VNDF_SQRT(VNDF_FMA(kx, kx, ky * ky));
+    v.x = vx;
+    v.y = vy;
+    v.z = vz;
+    v.l = kl * VNDF_R(7.450580596923828125e-09);
+    v.rcp_l = v.l > VNDF_R(0.0) ? VNDF_R(1.0) / v.l : VNDF_R(0.0);
+    v.r = VNDF_SQRT(VNDF_FMA(v.l, v.l, vz * vz));
+    v.t = VNDF_SQRT(v.r * (v.r + vndf_impl_abs(vz)));
+    v.rcp_t = VNDF_R(1.0) / v.t;
+    v.alpha_x = v.alpha_y = VNDF_R(1.0);
+    return v;
+}
+VNDF_FN struct vndf_impl_view vndf_impl_stretch(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
+    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
+    v.alpha_x = alpha_x;
+    v.alpha_y = alpha_y;
+    return v;
+}
+
+// The unit vector along the tangential part of v: azimuth 0 for a v without one.
+VNDF_FN VNDF_REAL vndf_impl_azimuth_x(struct vndf_impl_view v) {
+    return v.l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_azimuth_y(struct vndf_impl_view v) {
+    return v.y * v.rcp_l;
+}
+
+// The projected area that v sees from behind the surface, twice: l^2 / (r + |z|), where r + z would cancel.
+VNDF_FN VNDF_REAL vndf_impl_hidden_area(struct vndf_impl_view v) {
+    return v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
+}
+
+// q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its
+// rounding error along.
+VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
+                                  VNDF_REAL alpha_y) {
+    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
+    VNDF_REAL low_x = VNDF_FMA(-sx, alpha_x, x) * rcp_x, low_y = VNDF_FMA(-sy, alpha_y, y) * rcp_y;
+    VNDF_REAL low = VNDF_R(2.0) * VNDF_FMA(sx, low_x, sy * low_y);
+    return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, VNDF_FMA(z, z, low)));
+}
+
+// 2 sigma = z + t, or l^2 / (t - z) for z < 0, where the sum would cancel.
+VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
+                                            VNDF_REAL alpha_y) {
+    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * x, alpha_y * y, z);
+    return z >= VNDF_R(0.0) ? v.r + vndf_impl_abs(z) : vndf_impl_hidden_area(v);
+}
+
+// Unstretches h, a normal of any length in the stretched frame, and normalises it. The density of the result
+// is weight |g|^3 / (pi alpha_x alpha_y |h|^4), g = (alpha_x h.x, alpha_y h.y, h.z): dividing by the length
+// that h has, not by the one it should have, keeps the density accurate.
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL hy, VNDF_REAL hz,
+                                                        VNDF_REAL alpha_x, VNDF_REAL alpha_y,
+                                                        VNDF_REAL weight) {
+    struct vndf_impl_sample m;
+    VNDF_REAL gx = alpha_x * hx, gy = alpha_y * hy;
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    // length2 = 0 needs h = 0, the reflection of wo into -wo: no normal is defined, density 0.
+    int defined = length2 > VNDF_R(0.0);
+    m.x = defined ? gx * rcp : VNDF_R(0.0);
+    m.y = defined ? gy * rcp : VNDF_R(0.0);
+    m.z = defined ? hz * rcp : VNDF_R(1.0);
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = length2 / h2;
+    VNDF_REAL pdf = VNDF_1_PI * (weight * length / (h2 * alpha_x * alpha_y)) * ratio;
+    m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return m;
+}
+
+#endif
