@@ -13,6 +13,7 @@ constexpr Ndf GGX = Ndf::ggx, BECKMANN = Ndf::beckmann, ANY = Ndf::any;
 constexpr Method EXACT = Method::exact, APPROXIMATE = Method::approximate;
 constexpr Domain SPHERE = Domain::sphere;
 constexpr double NONE = 0;
+constexpr Unit PLAIN = Unit::plain, EXPONENT = Unit::exponent, CONDITION = Unit::condition;
 constexpr auto VISIBLE = Support::visible, MIRRORED = Support::mirrored, CAP = Support::cap,
                ABOVE = Support::above;
 // UPPER is a domain and a support.
@@ -20,17 +21,6 @@ constexpr struct {
     operator Domain() const { return Domain::upper; }
     operator Support() const { return Support::upper; }
 } UPPER;
-
-// Literal arguments leave terms and densities well conditioned, but for the exponent of a Beckmann function. Directions, the
-// marginals of the slopes (differences, roots) and the functions about a world-space normal (whose products n . w are
-// rounded) are judged by their condition.
-Unit unit_of(const Function& f) {
-    const auto takes = [&](const char* scalar) {
-        return std::find(f.inputs.begin(), f.inputs.end(), scalar) != f.inputs.end();
-    };
-    if (f.result != "VALUE" || takes("cos_theta") || takes("n_x")) return Unit::condition;
-    return has_exponent(f.ndf) ? Unit::exponent : Unit::plain;
-}
 
 Function with_pdf(Function sampler) {
     sampler.name += "_with_pdf";
@@ -51,9 +41,9 @@ std::vector<Function> read_functions() {
     f.arguments = #arguments_, f.signature = VNDF_ARGUMENTS_##arguments_; \
     f.result = #result_, f.kind = kind_, f.ndf = ndf_;                    \
     f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                    \
-    f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};               \
-    f.unit = unit_of(f);
-#define VNDF_ERRORS(in_float, in_double) f.float_bounds.error = in_float, f.double_bounds.error = in_double;
+    f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};
+#define VNDF_ERRORS(unit_, in_float, in_double) \
+    f.unit = unit_, f.float_bounds.error = in_float, f.double_bounds.error = in_double;
 #define VNDF_SAMPLER(name, ndf, arguments, result, density_, method_, domain_, in_float, in_double, source) \
     {                                                                                                       \
         VNDF_ROW(Kind::sampler, name, ndf, arguments, result, source)                                       \
@@ -62,29 +52,29 @@ std::vector<Function> read_functions() {
         f.double_bounds.sampler = VNDF_TUPLE in_double;                                                     \
         all.push_back(f), all.push_back(with_pdf(f));                                                       \
     }
-#define VNDF_DENSITY(name, ndf, arguments, support_, in_float, in_double, source) \
-    {                                                                             \
-        VNDF_ROW(Kind::density, name, ndf, arguments, VALUE, source)              \
-        VNDF_ERRORS(in_float, in_double)                                          \
-        f.support = support_, all.push_back(f);                                   \
+#define VNDF_DENSITY(name, ndf, arguments, support_, unit, in_float, in_double, source) \
+    {                                                                                   \
+        VNDF_ROW(Kind::density, name, ndf, arguments, VALUE, source)                    \
+        VNDF_ERRORS(unit, in_float, in_double)                                          \
+        f.support = support_, all.push_back(f);                                         \
     }
-#define VNDF_TERM(name, ndf, arguments, in_float, in_double, source) \
-    {                                                                \
-        VNDF_ROW(Kind::term, name, ndf, arguments, VALUE, source)    \
-        VNDF_ERRORS(in_float, in_double)                             \
-        all.push_back(f);                                            \
+#define VNDF_TERM(name, ndf, arguments, unit, in_float, in_double, source) \
+    {                                                                      \
+        VNDF_ROW(Kind::term, name, ndf, arguments, VALUE, source)          \
+        VNDF_ERRORS(unit, in_float, in_double)                             \
+        all.push_back(f);                                                  \
     }
-#define VNDF_INVERSE(name, ndf, arguments, sampler_, in_float, in_double, source) \
-    {                                                                             \
-        VNDF_ROW(Kind::inverse, name, ndf, arguments, U, source)                  \
-        VNDF_ERRORS(in_float, in_double)                                          \
-        f.sampler = #sampler_, all.push_back(f);                                  \
+#define VNDF_INVERSE(name, ndf, arguments, sampler_, unit, in_float, in_double, source) \
+    {                                                                                   \
+        VNDF_ROW(Kind::inverse, name, ndf, arguments, U, source)                        \
+        VNDF_ERRORS(unit, in_float, in_double)                                          \
+        f.sampler = #sampler_, all.push_back(f);                                        \
     }
-#define VNDF_GEOMETRY(name, ndf, arguments, result, in_float, in_double, source) \
-    {                                                                            \
-        VNDF_ROW(Kind::geometry, name, ndf, arguments, result, source)           \
-        VNDF_ERRORS(in_float, in_double)                                         \
-        all.push_back(f);                                                        \
+#define VNDF_GEOMETRY(name, ndf, arguments, result, unit, in_float, in_double, source) \
+    {                                                                                  \
+        VNDF_ROW(Kind::geometry, name, ndf, arguments, result, source)                 \
+        VNDF_ERRORS(unit, in_float, in_double)                                         \
+        all.push_back(f);                                                              \
     }
 #include "../kernels/registry.def"
     return all;

@@ -39,7 +39,7 @@ cannot "no function nosuch" "$tests/rusticl.sh" "$project" "$build" nosuch
 cannot "no $empty/host/libclvndf_host.a: build it first" "$tests/same_bits.sh" "$project" "$empty" "$empty/work"
 : >"$empty/file"
 cannot "$empty/file/work: cannot make this folder" "$tests/same_bits.sh" "$project" "$build" "$empty/file/work"
-for script in names_test.sh opencl_lint_test.sh switches_test.sh; do
+for script in kernels/names_test.sh kernels/opencl_lint_test.sh kernels/switches_test.sh; do
     cannot "no headers in" "$tests/$script"
     cannot "no headers in '$empty/vndf'" "$tests/$script" "$empty"
 done

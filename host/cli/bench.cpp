@@ -70,8 +70,9 @@ std::string in_folder(const std::string& folder, const char* name) {
 // The page out of the measurements, by the script in this binary.
 void draw(const std::string& page, const std::string& measurements, const std::string& folder) {
     const auto& files = bench::sources();
-    const auto script = std::find_if(
-        files.begin(), files.end(), [](const runtime::SourceFile& f) { return f.path == "bench/report/report.py"; });
+    const auto script = std::find_if(files.begin(), files.end(), [](const runtime::SourceFile& f) {
+        return f.path == "bench/report/report.py";
+    });
     // The paths go by the environment, so that no name has to be quoted.
     setenv("CLVNDF_REPORT", page.c_str(), 1);
     setenv("CLVNDF_BENCH", measurements.c_str(), 1);

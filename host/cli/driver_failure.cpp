@@ -6,12 +6,15 @@
 
 #include <unistd.h>
 
+#include "cli/leftovers.h"
+
 namespace vndf::cli {
 namespace {
 
 // At once, without another call of the driver: safe wherever it may stand.
 template <std::size_t size>
 [[noreturn]] void give_up(const char (&line)[size]) {
+    remove_leftovers();
     [[maybe_unused]] const auto written = write(STDERR_FILENO, line, size - 1);
     _exit(3);
 }

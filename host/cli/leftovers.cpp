@@ -25,16 +25,20 @@ char leftovers[slots][longest_path];
 constexpr int deadly[] = {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM, SIGXCPU};
 
 extern "C" void remove_leftovers_and_die(int signal_number) {
-    for (std::size_t i = slots; i-- > 0;) {
-        if (leftovers[i][0] == '\0') continue;
-        unlink(leftovers[i]);
-        rmdir(leftovers[i]);
-    }
+    remove_leftovers();
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
 }
 
 }  // namespace
+
+void remove_leftovers() {
+    for (std::size_t i = slots; i-- > 0;) {
+        if (leftovers[i][0] == '\0') continue;
+        unlink(leftovers[i]);
+        rmdir(leftovers[i]);
+    }
+}
 
 void remove_on_signal(const std::string& path) {
     for (char* slot : leftovers) {

@@ -11,6 +11,9 @@ namespace vndf::cli {
 void remove_on_signal(const std::string& path);
 void keep_on_signal(const std::string& path);
 
+// Removes what remove_on_signal was told of; safe in a signal handler.
+void remove_leftovers();
+
 // A new folder among the temporary ones that goes with the object, and with the process if that ends early: a second
 // process waits for the end of this one, whatever it is, and removes the folder. Create it before other threads.
 // Throws InputError if there is no place for it.

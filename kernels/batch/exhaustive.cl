@@ -152,6 +152,8 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
         }                                                                                                   \
     }
 
-#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, float_bounds, double_bounds, source) \
-    VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result, VNDF_EXHAUSTIVE_INSIDE_##density)
+#define VNDF_SAMPLER(name, ndf, arguments, result, density, method, domain, float_bounds, double_bounds, \
+                     source)                                                                             \
+    VNDF_EXHAUSTIVE(vndf_exhaustive_##name, name##_with_pdf, arguments, result,                          \
+                    VNDF_EXHAUSTIVE_INSIDE_##density)
 #include "../registry.def"

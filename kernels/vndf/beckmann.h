@@ -8,8 +8,7 @@
 // and just that below it, so that nothing cancels. Where e^(-a^2) meets another exponential, the exponents are combined
 // first.
 //
-// Accuracy, unless stated: relative error in units of 2^-24 (double: 2^-53), times (1 + 2 q) where q is the exponent of
-// the Gaussian; asserted by `clvndf check`.
+// Accuracy: relative errors; q is the exponent of the Gaussian.
 #ifndef VNDF_BECKMANN_H
 #define VNDF_BECKMANN_H
 
@@ -22,7 +21,7 @@
 // wm: unit normal, local frame.
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
-// Accuracy: 8 (1 + 2 q).
+// Accuracy: 8 eps (1 + 2 q); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
 }
@@ -32,7 +31,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 //     supplement 1, Section 3.1, scaled by alpha.
 // slope: (x, y) of the normal (-x, -y, 1), any real numbers.
 // return: per unit of slope area, integral 1.
-// Accuracy: 8 (1 + 2 q).
+// Accuracy: 8 eps (1 + 2 q); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(slope.x, slope.y, VNDF_R(1.0), vndf_impl_alpha(alpha.x),
                                 vndf_impl_alpha_y(alpha.y));
@@ -43,7 +42,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 // w: unit vector, local frame.
 // return: >= 0 above the horizon. Below it, sigma(w) / w.z - 1 = -1 - Lambda(-w), so that (1 + Lambda) w.z is the
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
-// Accuracy: 8 (1 + 2 q), q = a^2.
+// Accuracy: 8 eps (1 + 2 q); double 20.
+//     q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL upper = vndf_impl_finite(vndf_impl_beckmann_upper_lambda(w, alpha));
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
@@ -53,7 +53,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2: w.z / G1(w), as max(w.z, 0) + l e^(-a^2) I(|a|).
 // w: unit vector, local frame, anywhere on the sphere.
 // return: >= 0, per unit area of the macrosurface. Integral of D max(w . m, 0).
-// Accuracy: 8, below the horizon 8 (1 + 2 q), q = a^2.
+// Accuracy: 8 eps (1 + 2 q); double 20.
+//     q = a^2 below the horizon, 0 above it.
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
     struct vndf_impl_slopes s = vndf_impl_slopes_of(l, w.z);
@@ -64,7 +65,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 43: 1 / (1 + Lambda) = w.z / sigma(w).
 // w: unit vector, local frame.
 // return: in [0, 1]; 0 for w.z <= 0.
-// Accuracy: 8.
+// Accuracy: 8 eps; double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return w.z > VNDF_R(0.0) ? vndf_impl_share(w.z / vndf_beckmann_sigma(w, alpha)) : VNDF_R(0.0);
 }
@@ -73,7 +74,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8.
+// Accuracy: 8 eps; double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     // wi's terms wait for wo's, since side by side the two would be packed (impl/stretch.h).
     VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
@@ -90,7 +91,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // Source: Heitz 2014, Equation 98.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8.
+// Accuracy: 8 eps; double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
 }
@@ -101,7 +102,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
 // wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
-// Accuracy: 16 (1 + 2 q).
+// Accuracy: 16 eps (1 + 2 q); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
     VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z);
@@ -115,8 +116,9 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 
 // wo: unit vector, local frame, anywhere on the sphere.
 // wi: unit vector, local frame, anywhere on the sphere: a reflection may fall below the horizon.
 // return: per steradian of wi; 0 where the half vector points to or below the horizon.
-// Accuracy: 16 (1 + 2 q) for the vectors as given. Below alpha = 1e-2 the rounding of wi moves the density by more
-//     than that: use a sampler's _with_pdf form there.
+// Accuracy: 16 eps (1 + 2 q); double 20.
+//     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use a sampler's _with_pdf form
+//     there.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
     // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
@@ -136,7 +138,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
 // Source: Walter et al. 2007, Equation 24.
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0.
-// Accuracy: 16 (1 + 2 q).
+// Accuracy: 16 eps (1 + 2 q); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_finite(vndf_beckmann_ndf(wm, alpha) * wm.z);
 }
@@ -148,7 +150,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alph
 // cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
 // slope: x of the normal (-x, ., 1), positive away from the view direction.
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
-// Accuracy: 16 (1 + 2 q).
+// Accuracy: 16 eps (1 + condition number); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
@@ -165,7 +167,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
 // cos_theta, slope: as for vndf_beckmann_slope_pdf.
 // return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
-// Accuracy: 16 (1 + 2 q).
+// Accuracy: 16 eps (1 + condition number); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
@@ -183,7 +185,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // cos_theta: in [-1, 1].
 // u1: probability.
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
-// Accuracy: 16 (1 + condition number).
+// Accuracy: 16 eps (1 + condition number); double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
     struct vndf_impl_incidence_slopes i =
         vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));

@@ -1,7 +1,7 @@
 """A small benchmark JSON for tests out of whole ones: the aggregates that the report's plots and the README need.
 
     python3 tests/support/small_bench.py bench/results/pocl-3.1.json BENCH.json...
-    python3 bench/report/readme_tables.py README.md bench/results/pocl-3.1.json
+    python3 tests/docs.py BUILD
 """
 import json
 import re

@@ -66,15 +66,6 @@ VNDF_FN VNDF_REAL vndf_impl_exp2i(VNDF_INT k) {
     return VNDF_AS_REAL((k + VNDF_IMPL_EXPONENT_BIAS) << VNDF_IMPL_MANTISSA_BITS);
 }
 
-// 1 / sqrt(x), x > 0 normal. Accuracy: 1.6 / 2; 1.50 ulp.
-VNDF_FN VNDF_REAL vndf_impl_rcp_sqrt(VNDF_REAL x) {
-#if VNDF_IMPL_STRICT || !(defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__))
-    return VNDF_R(1.0) / VNDF_SQRT(x);
-#else
-    return VNDF_IMPL_FAST(rsqrt)(x);
-#endif
-}
-
 // sin(2 pi x) for |x| <= 1/4.
 VNDF_FN VNDF_REAL vndf_impl_sin_2pi(VNDF_REAL x) {
 #if VNDF_IMPL_STRICT

@@ -1,0 +1,13 @@
+// Seeded mistakes in beckmann.h: rows of Mutant (mutants.h).
+{"reflected directions of Beckmann without the Jacobian",
+ "beckmann.h",
+ "VNDF_R(0.25), alpha);",
+ "VNDF_R(1.0), alpha);",
+ "vndf_beckmann_pdf_wi",
+ {"pointwise", "integral"}},
+    {"Beckmann: what a narrow lobe hides is 1e-5 of the projected area",
+     "beckmann.h",
+     "s.hidden, vndf_impl_max(w.z, VNDF_R(0.0))",
+     "s.hidden, vndf_impl_max(s.a > VNDF_R(100.0) ? VNDF_R(0.99999) * w.z : w.z, VNDF_R(0.0))",
+     "vndf_beckmann_sigma",
+     {"pointwise, maximum"}},

@@ -1,0 +1,13 @@
+// Seeded mistakes in impl/beckmann_terms.h: rows of Mutant (mutants.h).
+{"Beckmann: a half vector that faces away without the rounding of its exponent",
+ "impl/beckmann_terms.h",
+ "away ? -hidden.tail : VNDF_R(0.0)",
+ "VNDF_R(0.0)",
+ "vndf_beckmann_pdf_wi",
+ {"pointwise, maximum"}},
+    {"Beckmann: a half vector that faces away with one alpha for both",
+     "impl/beckmann_terms.h",
+     "vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y)",
+     "vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_x)",
+     "vndf_beckmann_pdf_wi",
+     {"pointwise, maximum"}},

@@ -1,0 +1,13 @@
+// Seeded mistakes in impl/exact.h: rows of Mutant (mutants.h).
+{"refraction's half vector rounded",
+ "impl/exact.h",
+ "h.tail = vndf_impl_sum_error(sum, low, h.head);  // where",
+ "h.tail = VNDF_R(0.0);  // where",
+ "vndf_jacobian_refract",
+ {"pointwise, maximum"}},
+    {"refraction's half vector without the rounding error of its product",
+     "impl/exact.h",
+     "vndf_impl_sum_error(o, product, sum) + VNDF_FMA(eta, i, -product);",
+     "vndf_impl_sum_error(o, product, sum);",
+     "vndf_jacobian_refract",
+     {"pointwise, maximum"}},

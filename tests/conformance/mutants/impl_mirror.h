@@ -1,0 +1,13 @@
+// Seeded mistakes in impl/mirror.h: rows of Mutant (mutants.h).
+{"reflection: half vectors below the horizon count",
+ "impl/mirror.h",
+ "return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf)",
+ "return n > VNDF_R(0.0) ? vndf_impl_finite(pdf)",
+ "vndf_ggx_pdf_wi",
+ {"integral"}},
+    {"the density of reflected directions without its Jacobian",
+     "impl/mirror.h",
+     "(VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio",
+     "(VNDF_2_PI * ratio / d.part) * ratio",
+     "vndf_ggx_pdf_wi",
+     {"pointwise", "integral"}},

@@ -1,0 +1,10 @@
+// Seeded mistakes in impl/slopes.h: rows of Mutant (mutants.h).
+{"2014: the slope by one root, whose cosine cancels", "impl/slopes.h",
+ "slope.cos_psi = opposite ? conjugate : direct;",    "slope.cos_psi = direct;",
+ "vndf_ggx_sample_wm_heitz_deon2014_exact",           {"normal above the surface"}},
+    {"2014: the other root behind the surface",
+     "impl/slopes.h",
+     "VNDF_REAL cosine = sqrt_p * slope.visible;",
+     "VNDF_REAL cosine = (c < VNDF_R(0.0) ? -sqrt_p : sqrt_p) * slope.visible;",
+     "vndf_ggx_sample_wm_heitz_deon2014_exact",
+     {"pointwise, back", "chi2 of the pivots"}},
