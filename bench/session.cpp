@@ -40,7 +40,7 @@ bool in_world_space(const Function& function) {
 // A program without any registered function.
 runtime::ProgramOptions own_program(const std::string& source) {
     runtime::ProgramOptions options;
-    options.root = "kernels/vndf/config.h";
+    options.root = "kernels/vndf/impl/shim.h";
     options.more_source = source;
     return options;
 }

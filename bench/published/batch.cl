@@ -7,7 +7,7 @@
 #include "ggx_benyoub2024.cl"
 #include "heitz_deon2014.cl"
 
-#include "../../kernels/vndf/config.h"
+#include "../../kernels/vndf/impl/shim.h"
 #include "../../kernels/batch/entry_point.h"
 
 #define PUBLISHED(name, arguments, result) \

@@ -1,6 +1,6 @@
 // Uniform random numbers on the device: Philox 4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as
 // 1, 2, 3"), a function of (seed, stream, index) without state.
-#include "../vndf/config.h"
+#include "../vndf/impl/shim.h"
 
 // Random123 would say plain `inline`, whose functions stay undefined where the compiler does not inline them.
 #define R123_STATIC_INLINE static inline

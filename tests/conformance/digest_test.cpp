@@ -126,7 +126,7 @@ TEST_CASE("items beyond the last whole group have the host build's bits", "[tail
 // Only for oclgrind.sh: what it must see.
 TEST_CASE("a kernel with an invalid access and a data race", "[.planted]") {
     runtime::ProgramOptions options;
-    options.root = "kernels/vndf/config.h";
+    options.root = "kernels/vndf/impl/shim.h";
     options.more_source =
         "__kernel void planted(__global float *a) { a[get_global_id(0) + 1] = a[0]; a[1] = get_global_id(0); "
         "}";

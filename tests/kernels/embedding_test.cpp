@@ -25,9 +25,9 @@ std::string read(const std::filesystem::path& path) {
 cl::Program build(const cl::Context& context, const cl::Device& device) {
     std::vector<std::string> names;
     std::vector<cl::Program> headers;
-    for (const auto& entry : std::filesystem::directory_iterator(root / "kernels/vndf")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "kernels/vndf")) {
         if (entry.path().extension() != ".h") continue;
-        names.push_back("vndf/" + entry.path().filename().string());
+        names.push_back(std::filesystem::relative(entry.path(), root / "kernels").generic_string());
         headers.emplace_back(context, read(entry.path()));
     }
     std::vector<cl_program> handles;

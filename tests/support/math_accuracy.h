@@ -97,11 +97,6 @@ R exact_circle_cos(const R& u) {
     return sin(R(2 * R(pi) * (R(0.25) - (u > R(0.5) ? R(1 - u) : u))));
 }
 template <class R>
-R exact_rcp_sqrt(const R& x) {
-    using std::sqrt;
-    return 1 / sqrt(x);
-}
-template <class R>
 R exact_log(const R& x) {
     using std::log;
     return log(x);
@@ -156,7 +151,6 @@ constexpr Number kepler_high = 2.66;
 #define VNDF_CLAIM(name) #name, vndf_impl_##name, exact_##name < Exact>, exact_##name < double>
 // clang-format off
 const Claim claims[] = {
-    {VNDF_CLAIM(rcp_sqrt), smallest, largest, 1.6, 2, 1.50},
     {VNDF_CLAIM(circle_sin), 0, 1, 1.43, 2, 1.43, Error::absolute},
     {VNDF_CLAIM(circle_sin), 1e-12f, 0.499999f, 1.8, 3, 1.43},
     {VNDF_CLAIM(circle_cos), 0, 1, 1.59, 2, 1.59, Error::absolute},
