@@ -7,9 +7,8 @@
 // D / (2 n) of a normal whose unstretched form is `ratio` times as long squared, for a normaliser n > 0.
 VNDF_FN VNDF_REAL vndf_impl_reflection_density(VNDF_REAL ratio, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
-    return vndf_impl_bounded_product(share, d.scale);
+    VNDF_REAL density = (VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio;
+    return vndf_impl_bounded_quotient(density, alpha_x * alpha_y);
 }
 
 // The reflection of wo about the unstretched normal g of h, as long as wo, and |g|^2 / |h|^2.

@@ -1,13 +1,13 @@
 // Seeded mistakes in ggx.h: rows of Mutant (mutants.h).
 {"the density of visible normals by G1 / cos",
  "ggx.h",
- "* cos_om / area.part;",
- "* cos_om * vndf_ggx_g1(wo, alpha) / (VNDF_R(2.0) * wo.z * area.scale);",
+ "VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);",
+ "VNDF_REAL pdf = area * vndf_ggx_g1(wo, alpha) / (VNDF_R(2.0) * wo.z);",
  "vndf_ggx_pdf_wm",
  {"pointwise, maximum"}},
     // Those of users.
-    {"the density of visible normals without G1",     "ggx.h",           "* cos_om / area.part;",
-     "* cos_om / (VNDF_R(2.0) * wo.z * area.scale);", "vndf_ggx_pdf_wm", {"pointwise", "integral"}},
+    {"the density of visible normals without G1",     "ggx.h",           "VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);",
+     "VNDF_REAL pdf = area / (VNDF_R(2.0) * wo.z);", "vndf_ggx_pdf_wm", {"pointwise", "integral"}},
     {"height-correlated shadowing taken for separable",
      "ggx.h",
      "VNDF_FMA(t_high, low / (high > VNDF_R(0.0) ? high : VNDF_R(1.0)), t_low)",
