@@ -10,12 +10,14 @@
 
 #if VNDF_DOUBLE
 #define VNDF_REAL_MAX 1.79769313486231570815e+308
-#define VNDF_EPSILON 1.11022302462515654042e-16  // 2^-53
+#define VNDF_EPSILON 1.11022302462515654042e-16      // 2^-53
+#define VNDF_IMPL_LEAST 2.22507385850720138309e-308  // 2^-1022, the least normal number
 #define VNDF_IMPL_ROOT_LEAST \
     7.45834073120020674329e-155  // 2^-512: 1 over the root of what is no number any more
 #else
 #define VNDF_REAL_MAX 3.40282346638528859812e+38f
-#define VNDF_EPSILON 5.96046447753906250000e-08f  // 2^-24
+#define VNDF_EPSILON 5.96046447753906250000e-08f     // 2^-24
+#define VNDF_IMPL_LEAST 1.17549435082228750797e-38f  // 2^-126, the least normal number
 #define VNDF_IMPL_ROOT_LEAST \
     5.42101086242752217004e-20f  // 2^-64: 1 over the root of what is no number any more
 #endif
@@ -53,19 +55,23 @@ VNDF_FN int vndf_impl_is_finite(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
     return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0))) == VNDF_R(0.0);
 }
 
-// Whether a b, for a, b >= 0, is more than the largest finite number. It is judged before the product is formed, so that
-// nothing overflows, not even under compiler options that know no infinity.
+// Whether a b is more than the largest finite number, for a, b >= 0, a <= b or a <= 2^64 (double: 2^512). It is judged
+// before the product is formed, so that nothing overflows, not even under compiler options that know no infinity; and from
+// numbers far from subnormal ones, which are slow.
 VNDF_FN int vndf_impl_beyond(VNDF_REAL a, VNDF_REAL b) {
-    return (a * VNDF_IMPL_ROOT_LEAST) * (b * VNDF_IMPL_ROOT_LEAST) >= VNDF_R(1.0);
+    VNDF_REAL root = VNDF_R(1.0) / VNDF_IMPL_ROOT_LEAST;
+    return vndf_impl_min(a, root) * (b * (VNDF_R(0.25) * VNDF_IMPL_ROOT_LEAST)) >= VNDF_R(0.25) * root;
 }
-// a b for a, b >= 0, and the largest finite number where that is more.
+// Their product, and the largest finite number where that is more.
 VNDF_FN VNDF_REAL vndf_impl_bounded_product(VNDF_REAL a, VNDF_REAL b) {
     return vndf_impl_beyond(a, b) ? VNDF_REAL_MAX : a * b;
 }
 
 // a / b for a, b >= 0 in the same way, also for b = 0.
 VNDF_FN VNDF_REAL vndf_impl_bounded_quotient(VNDF_REAL a, VNDF_REAL b) {
-    int beyond = a * VNDF_IMPL_ROOT_LEAST >= vndf_impl_min(b, VNDF_R(1.0)) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL down = VNDF_R(2.3283064365386963e-10);  // 2^-32
+    int beyond =
+        a * down >= vndf_impl_min(b, VNDF_R(1.0)) * (down / VNDF_IMPL_ROOT_LEAST / VNDF_IMPL_ROOT_LEAST);
     return beyond ? VNDF_REAL_MAX : a / b;
 }
 
@@ -131,19 +137,6 @@ VNDF_FN VNDF_REAL vndf_impl_scale(VNDF_REAL x) {
 #endif
 }
 
-// What x > 0 divides by: 1 / x = scale / part, part in [1, 2) and scale a power of two. The quotient by part does not
-// overflow, and its product with scale can be bounded. x = 0 counts as 1.
-struct vndf_impl_divisor {
-    VNDF_REAL part, scale;
-};
-VNDF_FN struct vndf_impl_divisor vndf_impl_divisor_of(VNDF_REAL x) {
-    struct vndf_impl_divisor d;
-    VNDF_REAL positive = x > VNDF_R(0.0) ? x : VNDF_R(1.0);
-    d.scale = vndf_impl_scale(positive);
-    d.part = positive * d.scale;
-    return d;
-}
-
 // x > 0 as a number in [1, 2) and a power of two.
 VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
     struct vndf_impl_power s;
@@ -153,13 +146,12 @@ VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
     return s;
 }
 
-// part 2^exponent for a part >= 0 of moderate size, at most the largest finite number.
+// part 2^exponent for a part in [0, 2^60], at most the largest finite number.
 VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
-    VNDF_INT most = 2 * VNDF_IMPL_EXPONENT_BIAS - 2, all = x.exponent > most ? most : x.exponent;
-    all = all < -most ? -most : all;
-    VNDF_INT first = all >> 1;
-    return vndf_impl_bounded_product(vndf_impl_bounded_product(x.part, vndf_impl_exp2i(first)),
-                                     vndf_impl_exp2i(all - first));
+    VNDF_INT all = vndf_impl_within(x.exponent, 2 * VNDF_IMPL_EXPONENT_BIAS - 2), first = all >> 1;
+    return vndf_impl_power_beyond(x.part, all)
+               ? VNDF_REAL_MAX
+               : x.part * vndf_impl_exp2i(first) * vndf_impl_exp2i(all - first);
 }
 
 // --- Directions and samples as scalars ---

@@ -59,7 +59,8 @@ VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
               y = vndf_impl_min(vndf_impl_abs(slope.y), alpha_y * limit);
     VNDF_REAL q = vndf_impl_ggx_q(x, y, VNDF_R(1.0), alpha_x, alpha_y);
     VNDF_REAL qx = q * alpha_x, qy = q * alpha_y;
-    return vndf_impl_beyond(qx, qy) ? VNDF_R(0.0) : VNDF_1_PI / (qx * qy);
+    int nothing = vndf_impl_beyond(vndf_impl_min(qx, qy), vndf_impl_max(qx, qy));
+    return nothing ? VNDF_R(0.0) : VNDF_1_PI / (qx * qy);
 }
 
 // Smith's Lambda.
@@ -72,8 +73,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     VNDF_REAL z = vndf_impl_abs(w.z);
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(z);
-    VNDF_REAL pole = vndf_impl_bounded_product((VNDF_R(0.5) * v.l / (v.r + z)) * (v.l / d.part), d.scale);
+    VNDF_REAL pole = (VNDF_R(0.5) * v.l / (v.r + z)) * vndf_impl_bounded_quotient(v.l, z);
     VNDF_REAL upper = vndf_impl_finite(z > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
@@ -143,9 +143,8 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    struct vndf_impl_divisor area = vndf_impl_divisor_of(twice_sigma);
-    VNDF_REAL share = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * cos_om / area.part;
-    VNDF_REAL pdf = vndf_impl_bounded_product(vndf_impl_max(share, VNDF_R(0.0)), area.scale);
+    VNDF_REAL area = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * vndf_impl_max(cos_om, VNDF_R(0.0));
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
@@ -178,9 +177,8 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
     VNDF_REAL ratio = h.length2 / (h.q > VNDF_R(0.0) ? h.q : VNDF_R(1.0));
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
-    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
+    VNDF_REAL density = (VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(density, alpha_x * alpha_y);
     return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 

@@ -90,9 +90,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
     o.x *= rcp;
     o.y *= rcp;
     o.z *= rcp;
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n * rcp);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (alpha_x * alpha_y);
-    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
+    VNDF_REAL density = (VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n * rcp, VNDF_IMPL_LEAST)) * ratio;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(density, alpha_x * alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }

@@ -58,9 +58,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf
     o.y = oy * rcp_o;
     o.z = oz * rcp_o;
     VNDF_REAL ratio = g2 / h2, n = (front ? n_front : v.l * (v.l / (v.r - v.z))) / VNDF_SQRT(wo2);
-    struct vndf_impl_divisor d = vndf_impl_divisor_of(n);
-    VNDF_REAL share = (VNDF_R(0.5) * VNDF_1_PI * ratio / d.part) * ratio / (v.alpha_x * v.alpha_y);
-    VNDF_REAL pdf = vndf_impl_bounded_product(share, d.scale);
+    VNDF_REAL density = (VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(density, v.alpha_x * v.alpha_y);
     o.pdf = defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }

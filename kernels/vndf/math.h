@@ -153,6 +153,16 @@ struct vndf_impl_power {
     VNDF_INT exponent;
 };
 
+VNDF_FN VNDF_INT vndf_impl_within(VNDF_INT x, VNDF_INT most) {
+    VNDF_INT low = x < -most ? -most : x;
+    return low > most ? most : low;
+}
+// Whether part 2^exponent, for part < 2^62 and exponents up to 252 (double: 2044), is more than the largest finite number.
+VNDF_FN int vndf_impl_power_beyond(VNDF_REAL part, VNDF_INT exponent) {
+    VNDF_INT room = VNDF_IMPL_EXPONENT_BIAS + 1 - exponent;  // below 2^62 or never reached
+    return part >= vndf_impl_exp2i(room > 62 ? 62 : room);
+}
+
 // scale e^(x + low), |low| <= 1e-2, scale.part in [0, 2^60]: as vndf_impl_scaled_exp, but for a scale of any size, and never
 // more than the largest finite number.
 VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_impl_power scale) {
@@ -166,17 +176,11 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_
 #else
     VNDF_REAL power = VNDF_IMPL_FAST(exp)(z);
 #endif
-    VNDF_INT most = 2 * VNDF_IMPL_EXPONENT_BIAS - 2,
-             all = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
-    all = all > most ? most : all;
-    all = all < -most ? -most : all;
-    VNDF_INT first = all >> 1, rest = all - first, middle = VNDF_IMPL_EXPONENT_BIAS - 1;
-    // 2^-most of the result, where its exponent is positive.
-    VNDF_REAL down = scale.part * power * vndf_impl_exp2i((all > 0 ? first : 0) - middle) *
-                     vndf_impl_exp2i((all > 0 ? rest : 0) - middle);
-    int beyond = down >= vndf_impl_exp2i(VNDF_IMPL_EXPONENT_BIAS + 1 - most);
+    VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
+    VNDF_INT all = vndf_impl_within(exponent, 2 * VNDF_IMPL_EXPONENT_BIAS - 2), first = all >> 1;
+    int beyond = vndf_impl_power_beyond(scale.part * power, all);
     VNDF_REAL result =
-        beyond ? VNDF_IMPL_MAX : scale.part * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(rest);
+        beyond ? VNDF_IMPL_MAX : scale.part * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(all - first);
     return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
 }
 
