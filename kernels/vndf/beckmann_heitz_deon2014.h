@@ -70,7 +70,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
     // rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
     VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y));
+    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y, 0));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map

@@ -267,10 +267,11 @@ VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 w
 
 // The normal that leans by t towards and by y across e before the stretch, and its density, `weight` in slopes: times
 // |g|^3 / (alpha_x alpha_y) for g = (alpha_x h_x, alpha_y h_y, 1). All is scaled by a power of two near 1 / t: squares of t
-// may overflow.
+// may overflow. `hidden`, a constant: wo may be behind the surface, where t and the density have no bounds.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL t,
                                                              VNDF_REAL y, VNDF_REAL alpha_x,
-                                                             VNDF_REAL alpha_y, VNDF_REAL weight) {
+                                                             VNDF_REAL alpha_y, VNDF_REAL weight,
+                                                             int hidden) {
     struct vndf_impl_sample m;
     VNDF_REAL scale = vndf_impl_scale(VNDF_R(1.0) + vndf_impl_abs(t));
     VNDF_REAL ts = t * scale, ys = y * scale;
@@ -281,25 +282,24 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = scale * rcp;
-    // The weight waits for the rise, which is positive: side by side the two would be packed (frame.h).
-    struct vndf_impl_power up = vndf_impl_split(rise),
-                           w = vndf_impl_split(up.part > VNDF_R(0.0) ? weight : VNDF_R(1.0)), pdf;
-    pdf.part = w.part * up.part / (alpha_x * alpha_y) * up.part * up.part;
-    pdf.exponent = w.exponent + 3 * up.exponent;
-    m.pdf = vndf_impl_finite(vndf_impl_bounded_power(pdf));
+    struct vndf_impl_power up = vndf_impl_split(rise), steep;
+    steep.part = weight * up.part / (alpha_x * alpha_y) * up.part * up.part;
+    steep.exponent = 3 * up.exponent;
+    m.pdf = vndf_impl_finite(hidden ? vndf_impl_bounded_power(steep)
+                                    : weight * rise / (alpha_x * alpha_y) * rise * rise);
     return vndf_impl_where(length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX, m);
 }
 
 // The normal of a slope in the plane of incidence and of one of y across it, with its visible density.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f, int edge,
-                                                          VNDF_REAL offset, VNDF_REAL y) {
+                                                          VNDF_REAL offset, VNDF_REAL y, int hidden) {
     struct vndf_impl_incidence_slopes i = f.slopes;
     VNDF_REAL projection = vndf_impl_max(vndf_impl_slope_projection(i, edge, offset), VNDF_R(0.0));
     VNDF_REAL weight = vndf_impl_slope_gaussian(i, edge, offset, y, VNDF_1_PI * projection / i.sigma);
     // At wo = -z nothing is visible.
     weight = i.front || f.l > VNDF_R(0.0) ? weight : VNDF_R(0.0);
     VNDF_REAL t = vndf_impl_slope_base(i, edge) + offset;
-    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, y, f.alpha_x, f.alpha_y, weight);
+    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, y, f.alpha_x, f.alpha_y, weight, hidden);
 }
 
 #endif

@@ -146,7 +146,7 @@ VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
     return s;
 }
 
-// part 2^exponent for a part in [0, 2^60], at most the largest finite number.
+// part 2^exponent for a part in [0, 2^126), at most the largest finite number.
 VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
     VNDF_INT all = vndf_impl_within(x.exponent, 2 * VNDF_IMPL_EXPONENT_BIAS - 2), first = all >> 1;
     return vndf_impl_power_beyond(x.part, all)

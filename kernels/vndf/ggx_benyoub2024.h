@@ -112,8 +112,8 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
     VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(wm, n)), VNDF_R(0.0), wm_z, a, a);
-    VNDF_REAL area = (VNDF_2_PI / ((q * a) * (q * a))) * vndf_impl_max(cos_om, VNDF_R(0.0));
-    VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
+    VNDF_REAL area = (VNDF_2_PI / ((q * a) * (q * a))) * cos_om;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(vndf_impl_max(area, VNDF_R(0.0)), twice_sigma);
     // pdf is positive where wo . wm is.
     int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);

@@ -157,10 +157,10 @@ VNDF_FN VNDF_INT vndf_impl_within(VNDF_INT x, VNDF_INT most) {
     VNDF_INT low = x < -most ? -most : x;
     return low > most ? most : low;
 }
-// Whether part 2^exponent, for part < 2^62 and exponents up to 252 (double: 2044), is more than the largest finite number.
+// Whether part 2^exponent, for part < 2^126 and exponents up to 252 (double: 2044), is more than the largest finite number.
 VNDF_FN int vndf_impl_power_beyond(VNDF_REAL part, VNDF_INT exponent) {
-    VNDF_INT room = VNDF_IMPL_EXPONENT_BIAS + 1 - exponent;  // below 2^62 or never reached
-    return part >= vndf_impl_exp2i(room > 62 ? 62 : room);
+    VNDF_INT room = VNDF_IMPL_EXPONENT_BIAS + 1 - exponent;
+    return part >= vndf_impl_exp2i(room > 126 ? 126 : room);
 }
 
 // scale e^(x + low), |low| <= 1e-2, scale.part in [0, 2^60]: as vndf_impl_scaled_exp, but for a scale of any size, and never
