@@ -79,6 +79,9 @@ TEST_CASE("check notices every seeded mistake") {
         const Report report = check_mutant(static_cast<int>(i) + 1, mutant.only, mutant.real);
         CHECK_FALSE(report.passed());
         const std::set<std::string> failed = failed_checks(report);
+        std::string noticed = "noticed by:";
+        for (const std::string& name : failed) noticed += " [" + name + "]";
+        INFO(noticed);
         for (const std::string& check : mutant.noticed_by) {
             INFO(check);
             CHECK(any_begins(failed, check));

@@ -32,10 +32,10 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
 
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
-    Errors front, back, core, outside, length, below, behind, bad;
+    Errors front, back, level, core, outside, length, below, behind, bad;
     void merge(const MapErrors& other) {
-        front.merge(other.front), back.merge(other.back), core.merge(other.core),
-            outside.merge(other.outside);
+        front.merge(other.front), back.merge(other.back), level.merge(other.level);
+        core.merge(other.core), outside.merge(other.outside);
         length.merge(other.length), below.merge(other.below), behind.merge(other.behind),
             bad.merge(other.bad);
     }
@@ -89,6 +89,8 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
             }
             const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
             (where == Region::front ? errors.front : errors.back).add(error, i);
+            // Its rows are too few among those in front to count there, and maps are guarded at just this cosine.
+            if (reader.has_wo() && reader.cos_theta_o(row.data()) == 0) errors.level.add(error, i);
             if (in_core(reader, row.data())) errors.core.add(error, i);
         }
     });
@@ -128,6 +130,9 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
     add("pointwise, front, p99", errors.front.percentile(99), bounds.front * factor, unit, errors.front);
     if (errors.back.count())
         add("pointwise, back, p99", errors.back.percentile(99), bounds.back * factor, unit, errors.back);
+    if (errors.level.count())
+        add("pointwise, at the horizon, p99", errors.level.percentile(99), bounds.front * factor, unit,
+            errors.level);
     add("pointwise, core, p99.9", errors.core.percentile(99.9), bounds.core * factor, unit, errors.core);
     add("pointwise, core, maximum", errors.core.max(), bounds.core_max * factor, unit, errors.core);
     if (errors.outside.count())

@@ -18,4 +18,4 @@
      "vndf_beckmann_sample_wm_heitz_deon2014", {"KS of pivot 1", "pointwise, front"}},
     {"Beckmann 2014: nothing at the horizon",  "beckmann_heitz_deon2014.h",
      "vndf_impl_where(wo.z >= VNDF_R(0.0),",   "vndf_impl_where(wo.z > VNDF_R(0.0),",
-     "vndf_beckmann_sample_wm_heitz_deon2014", {"pointwise, front"}},
+     "vndf_beckmann_sample_wm_heitz_deon2014", {"pointwise, at the horizon"}},

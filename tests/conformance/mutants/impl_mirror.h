@@ -4,7 +4,7 @@
  "return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf)",
  "return n > VNDF_R(0.0) ? vndf_impl_finite(pdf)",
  "vndf_ggx_pdf_wi",
- {"integral"}},
+ {"pointwise, maximum"}},
     {"the density of reflected directions without its Jacobian",
      "impl/mirror.h",
      "(VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio",

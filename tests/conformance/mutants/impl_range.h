@@ -7,7 +7,7 @@
      "return low < VNDF_U_MAX ? low : VNDF_U_MAX;",
      "return low;",
      "vndf_beckmann_sample_wm_walter2007",
-     {"finite"}},
+     {"pointwise, core"}},
     {"u = 0 not raised",
      "impl/range.h",
      "VNDF_REAL low = u > VNDF_U_MIN ? u : VNDF_U_MIN;",
