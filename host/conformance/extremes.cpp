@@ -65,8 +65,9 @@ Rounding rounding(Real real) {
 }
 
 double not_finite(const Columns& results, std::size_t i) {
-    return std::all_of(results.begin(), results.end(), [&](const auto& c) { return std::isfinite(c[i]); }) ? 0
-                                                                                                          : 1;
+    return std::all_of(results.begin(), results.end(), [&](const auto& c) { return std::isfinite(c[i]); })
+               ? 0
+               : 1;
 }
 
 Finding finite(runtime::Evaluator& evaluator, const Function& function, const PointwiseOptions& options) {
@@ -74,7 +75,8 @@ Finding finite(runtime::Evaluator& evaluator, const Function& function, const Po
     const Columns results = evaluate(evaluator, function, table);
     Errors errors;
     for (std::size_t i = 0; i < table.rows(); ++i) errors.add(not_finite(results, i), i);
-    return make_finding("finite for finite arguments", errors.max(), 0, "non-finite", errors, function, table);
+    return make_finding("finite for finite arguments", errors.max(), 0, "non-finite", errors, function,
+                        table);
 }
 
 double length_error(const Columns& results, std::size_t i) {
@@ -92,7 +94,8 @@ Finding unit(runtime::Evaluator& evaluator, const Function& sampler, const Point
     Errors errors;
     for (std::size_t i = 0; i < table.rows(); ++i) errors.add(length_error(results, i) / epsilon(real), i);
     const double limit = (sampler.result == "WI" ? 8 : 4) * (options.math == Math::native ? 8 : 1);
-    return make_finding("unit length for any length of wo", errors.max(), limit, "eps", errors, sampler, table);
+    return make_finding("unit length for any length of wo", errors.max(), limit, "eps", errors, sampler,
+                        table);
 }
 
 // wo = -n, where nothing is visible: a normal on the horizon, its reflection -wo, or (0, 0, 1) from a map that ends at the

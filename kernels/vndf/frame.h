@@ -50,9 +50,9 @@ VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
 VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
 }
-// Whether all components are numbers: 0 times anything else is none.
-VNDF_FN int vndf_impl_is_finite(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
-    return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0))) == VNDF_R(0.0);
+// 0 if all components are numbers, NaN otherwise: added to a result that is kept finite, it lets NaN through.
+VNDF_FN VNDF_REAL vndf_impl_zero(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+    return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0)));
 }
 
 // Whether a b is more than the largest finite number, for a, b >= 0, a <= b or a <= 2^64 (double: 2^512). It is judged
@@ -284,7 +284,7 @@ VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL twice = VNDF_R(2.0) * vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
     VNDF_REAL x = VNDF_FMA(twice, wm.x, -wo.x), y = VNDF_FMA(twice, wm.y, -wo.y),
               z = VNDF_FMA(twice, wm.z, -wo.z);
-    int finite = vndf_impl_is_finite(x, y, z);
+    int finite = vndf_impl_zero(x, y, z) == VNDF_R(0.0);
     return VNDF_MAKE3(finite ? x : VNDF_R(0.0), finite ? y : VNDF_R(0.0), finite ? z : VNDF_R(0.0));
 }
 
@@ -311,7 +311,7 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
     VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
     VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
-    valid = valid & vndf_impl_is_finite(x, y, z);
+    valid = valid & (vndf_impl_zero(x, y, z) == VNDF_R(0.0));
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 
