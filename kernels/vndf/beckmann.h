@@ -45,7 +45,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 // Accuracy: 8 eps (1 + 2 q); double 20.
 //     q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL upper = vndf_impl_finite(vndf_impl_beckmann_upper_lambda(w, alpha));
+    VNDF_REAL upper = vndf_impl_beckmann_upper_lambda(w, alpha);
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
 
@@ -58,7 +58,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
     struct vndf_impl_slopes s = vndf_impl_slopes_of(l, w.z);
-    return vndf_impl_finite(VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0))));
+    VNDF_REAL sigma = VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0)));
+    return vndf_impl_finite(sigma) + vndf_impl_zero(w.x, w.y, w.z);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -67,7 +68,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 for w.z <= 0.
 // Accuracy: 8 eps; double 20.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return w.z > VNDF_R(0.0) ? vndf_impl_share(w.z / vndf_beckmann_sigma(w, alpha)) : VNDF_R(0.0);
+    return w.z > VNDF_R(0.0) ? vndf_impl_min(w.z / vndf_beckmann_sigma(w, alpha), VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
@@ -84,7 +85,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
     // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
     // exchanged.
     VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_share(quarter / sum) : VNDF_R(0.0);
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(quarter / sum, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).

@@ -16,8 +16,8 @@ VNDF_FN VNDF_REAL3 vndf_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
     VNDF_REAL x = VNDF_FMA(twice, wm.x, -wo.x), y = VNDF_FMA(twice, wm.y, -wo.y),
               z = VNDF_FMA(twice, wm.z, -wo.z);
     // Beyond the range of numbers the zero vector; NaN for NaN.
-    VNDF_REAL none = vndf_impl_nothing(wo.x, wo.y, wo.z) + vndf_impl_nothing(wm.x, wm.y, wm.z);
-    int finite = vndf_impl_is_finite(x, y, z);
+    VNDF_REAL none = vndf_impl_zero(wo.x, wo.y, wo.z) + vndf_impl_zero(wm.x, wm.y, wm.z);
+    int finite = vndf_impl_zero(x, y, z) == VNDF_R(0.0);
     return VNDF_MAKE3(finite ? x : none, finite ? y : none, finite ? z : none);
 }
 
@@ -45,7 +45,7 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL x = VNDF_FMA(k, wm.x, -wo.x * rcp_eta);
     VNDF_REAL y = VNDF_FMA(k, wm.y, -wo.y * rcp_eta);
     VNDF_REAL z = VNDF_FMA(k, wm.z, -wo.z * rcp_eta);
-    valid = valid & vndf_impl_is_finite(x, y, z);
+    valid = valid & (vndf_impl_zero(x, y, z) == VNDF_R(0.0));
     return VNDF_MAKE3(valid ? x : VNDF_R(0.0), valid ? y : VNDF_R(0.0), valid ? z : VNDF_R(0.0));
 }
 

@@ -69,7 +69,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
-    return vndf_impl_finite(VNDF_R(0.5) * twice_sigma);
+    return VNDF_R(0.5) * twice_sigma;
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -80,7 +80,7 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
-    return w.z > VNDF_R(0.0) ? vndf_impl_share(VNDF_R(2.0) * w.z / twice_sigma) : VNDF_R(0.0);
+    return w.z > VNDF_R(0.0) ? vndf_impl_min(VNDF_R(2.0) * w.z / twice_sigma, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
@@ -95,10 +95,11 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_impl_view i = vndf_impl_view_of(alpha_x * wi.x, alpha_y * wi.y, wi.z);
     int swap = wo.z > wi.z;
     VNDF_REAL low = vndf_impl_max(swap ? wi.z : wo.z, VNDF_R(0.0)), high = swap ? wo.z : wi.z;
-    VNDF_REAL t_low = swap ? i.r : o.r, t_high = swap ? o.r : i.r;
+    VNDF_REAL t_low = vndf_impl_min(swap ? i.r : o.r, VNDF_R(0.25) * VNDF_REAL_MAX),
+              t_high = vndf_impl_min(swap ? o.r : i.r, VNDF_R(0.25) * VNDF_REAL_MAX);
     VNDF_REAL g2 =
         VNDF_R(2.0) * low / VNDF_FMA(t_high, low / (high > VNDF_R(0.0) ? high : VNDF_R(1.0)), t_low);
-    return low > VNDF_R(0.0) ? vndf_impl_share(g2) : VNDF_R(0.0);
+    return low > VNDF_R(0.0) ? vndf_impl_min(g2, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).

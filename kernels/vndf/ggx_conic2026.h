@@ -283,7 +283,8 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_with_pdf(VNDF_REAL3 wo, VNDF_REA
 // Accuracy: 16 eps; double 20.
 //     Double against quadrature along the horizon: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return vndf_impl_finite(VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha)));
+    VNDF_REAL sigma = VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha));
+    return vndf_impl_finite(sigma) + vndf_impl_zero(w.x, w.y, w.z);
 }
 
 // The probability that the reflection of wo about a visible normal lies above the horizon.
@@ -296,7 +297,7 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
     struct vndf_impl_view v = vndf_impl_stretch(w, alpha);
     struct vndf_impl_cone c = vndf_impl_cone_of(v);
     VNDF_REAL p = VNDF_R(2.0) * vndf_impl_cone_share(c) / (VNDF_R(1.0) + c.sz);
-    return v.z > VNDF_R(0.0) ? vndf_impl_share(p) : VNDF_R(1.0);
+    return v.z > VNDF_R(0.0) ? vndf_impl_share(p) + vndf_impl_zero(w.x, w.y, w.z) : VNDF_R(1.0);
 }
 
 // The density of the reflection of wo about a visible normal, given that it lies above the horizon: D / (4 sigma_vis).

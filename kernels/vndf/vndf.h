@@ -20,13 +20,16 @@
 //           evaluating at the rounded direction is not (alpha below 1e-2, grazing directions).
 //   Accuracy of functions   the largest relative error, or what is stated, in eps: 2^-24, in double 2^-53; with `strict`
 //           (`builtin`: 4 times). The numbers are those of the registry, which `clvndf check` asserts.
-// What is promised of which arguments (asserted by `clvndf check`)
-//   wo of samplers   only its direction counts. The bounds of a function hold for |wo| within 2^-10 of 1; from
+//
+// What holds for which arguments (asserted by `clvndf check` and tests/kernels/exceptions_test.cpp; said here alone)
+//   wo of a sampler   its direction alone counts. The bounds of a function hold for |wo| within 2^-10 of 1; from
 //           1e-3 to 1e3 the result is a unit vector.
-//   other vectors    are taken literally; bounds are for vectors that are unit but for rounding.
-//   out of the domain, where a function says what it returns: that, with density 0.
-//   anything finite, of any size: a finite result. Inside the domain no value on the way to it overflows or is
-//           divided by 0, so that this does not hang on infinities.
+//   vectors otherwise, and those of terms and densities   are taken literally: bounds are for vectors that are unit
+//           but for rounding.
+//   out of the domain   what the function says, with density 0: at wo = -z, where nothing is visible, a normal on
+//           the horizon or its reflection -wo; (0, 0, 1) from a map that ends at the horizon.
+//   anything finite   gives a finite result, whatever its size or sign. Inside the domain nothing on the way to it
+//           overflows or is divided by 0: results do not hang on infinities.
 //
 // Precision and policy: see config.h (VNDF_REAL, VNDF_MATH).
 #ifndef VNDF_H

@@ -199,6 +199,7 @@ TEST_CASE("corners of the domain are as documented") {
     CHECK((u.x == 0 && u.y == 0));
     const vndf_double2 below = vndf_ggx_invert_wi_conic2026({0.6, 0, 0.8}, {0.8, 0, -0.6}, {0.5, 0.5});
     CHECK((below.x >= 0 && below.x <= 1 && below.y >= 0 && below.y <= 1));
+    CHECK(std::isnan(vndf_ggx_sigma_visible({NAN, 0, 0.8}, {0.5, 0.5})));
 }
 
 // The proof of the polygon: the cap holds every reflection above the horizon, and is inside the one of Equation 6.

@@ -1,5 +1,6 @@
 // What vndf.h promises of every function, on the host build; `clvndf check` asserts the same of a device.
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "conformance/judge/digest.h"
@@ -121,6 +122,20 @@ TEST_CASE("with index 1 refraction goes straight on") {
                 if (!(std::abs(out[k][i] + rays.columns[k][i]) <= 4 * epsilon(real)))
                     FAIL_CHECK(hex_row(*find_function("vndf_refract"), rays.row(i)));
     }
+}
+
+TEST_CASE("NaN in a direction is not hidden by a term") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const Real real : reals)
+        for (const char* name :
+             {"vndf_ggx_sigma", "vndf_ggx_g1", "vndf_ggx_sigma_visible", "vndf_ggx_reflection_probability",
+              "vndf_beckmann_sigma", "vndf_beckmann_g1"}) {
+            INFO(name);
+            Table table = empty_table(name);
+            add_row(table, {nan, 0, 0.8, 0.5, 0.5}), add_row(table, {0, nan, 0.8, 0.5, 0.5});
+            const auto results = evaluate_on_host(real, name, table);
+            for (const double result : results[0]) CHECK(std::isnan(result));
+        }
 }
 
 TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {

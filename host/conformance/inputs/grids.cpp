@@ -209,14 +209,6 @@ std::vector<Point> grazing_points() {
     return points;
 }
 
-// Directions wo of the lengths 1 - 2^-10 and 1 + 2^-10, within which the bounds of samplers hold.
-std::vector<Point> nearly_unit_points(const Function& sampler) {
-    std::vector<Point> points = random_points(sampler, 2048, 1);
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (double& x : points[i].wo) x *= i % 2 ? 1 - 0x1p-10 : 1 + 0x1p-10;
-    return points;
-}
-
 // Indices of refraction next to 1, where refraction goes straight on and the half vector wo + eta wi is all but nothing:
 // refracted rays (refract_some) and, beside each, the way back of wo but for a few last bits, of float and of double.
 std::vector<Point> straight_points() {
@@ -269,8 +261,6 @@ std::vector<Point> level_points() {
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
-    if (function.kind == Kind::sampler)
-        for (const Point& point : nearly_unit_points(function)) points.push_back(point);
     if (uses(function, {"eta"}) && uses(function, {"wm_x"}))
         for (const Point& point : critical_points()) points.push_back(point);
     if (uses(function, {"x", "slope_x"}))
@@ -347,6 +337,9 @@ std::vector<Point> random_points(const Function& function, std::size_t count, st
         const std::array<double, 2> u{random.u(), random.u()};
         const double eta = random.eta();
         points.push_back(make_point(wo, {alpha, world ? alpha : other}, normal, n, u, eta));
+        // The bounds of samplers hold for |wo| within 2^-10 of 1.
+        if (function.kind == Kind::sampler && points.size() % 16 == 0)
+            for (double& x : points.back().wo) x *= points.size() % 32 == 0 ? 1 - 0x1p-10 : 1 + 0x1p-10;
     }
     refract_some(function, points);
     return points;

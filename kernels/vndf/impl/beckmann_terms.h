@@ -45,7 +45,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Lambda of w or -w, whichever is above the horizon.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_upper_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
-    return vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a);
+    return vndf_impl_finite(vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a));
 }
 
 // The exponent of D / sigma(wo) behind the surface, q - a^2, for a normal that faces away from wo, as a sum of two

@@ -40,12 +40,9 @@ VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
 VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);
 }
-// 0 times each component, summed: 0 if all are finite, else NaN.
-VNDF_FN VNDF_REAL vndf_impl_nothing(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+// 0 if all components are finite, NaN otherwise: added to a result that is kept finite, it lets NaN through.
+VNDF_FN VNDF_REAL vndf_impl_zero(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
     return VNDF_FMA(x, VNDF_R(0.0), VNDF_FMA(y, VNDF_R(0.0), z * VNDF_R(0.0)));
-}
-VNDF_FN int vndf_impl_is_finite(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
-    return vndf_impl_nothing(x, y, z) == VNDF_R(0.0);
 }
 
 // Whether a b is more than the largest finite number, for a, b >= 0, a <= b or a <= 2^64 (double: 2^512). It is judged

@@ -70,9 +70,14 @@ VNDF_FN VNDF_REAL vndf_impl_azimuth_y(struct vndf_impl_view v) {
     return v.y * v.rcp_l;
 }
 
-// The projected area that v sees from behind the surface, twice: l^2 / (r + |z|), where r + z would cancel.
+// Twice the projected area that v sees in front of the surface, r + |z|, and behind it, l^2 / (r + |z|), where r + z would
+// cancel. Never infinite, whatever the length of v; NaN stays.
+VNDF_FN VNDF_REAL vndf_impl_front_area(struct vndf_impl_view v) {
+    return vndf_impl_min(v.r + vndf_impl_abs(v.z), VNDF_REAL_MAX);
+}
 VNDF_FN VNDF_REAL vndf_impl_hidden_area(struct vndf_impl_view v) {
-    return v.l * (v.l / (v.r + vndf_impl_abs(v.z)));
+    VNDF_REAL sum = vndf_impl_front_area(v), l = vndf_impl_min(v.l, sum);
+    return l * (l / sum);
 }
 
 // q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its
@@ -89,7 +94,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_RE
 VNDF_FN VNDF_REAL vndf_impl_ggx_twice_sigma(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
                                             VNDF_REAL alpha_y) {
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * x, alpha_y * y, z);
-    return z >= VNDF_R(0.0) ? v.r + vndf_impl_abs(z) : vndf_impl_hidden_area(v);
+    return z >= VNDF_R(0.0) ? vndf_impl_front_area(v) : vndf_impl_hidden_area(v);
 }
 
 // Unstretches h, a normal of any length in the stretched frame, and normalises it. The density of the result

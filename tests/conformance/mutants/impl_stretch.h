@@ -7,8 +7,8 @@
  {"chi2 of the directions", "means", "pointwise"}},
     {"the projected area as above the horizon below it",
      "impl/stretch.h",
-     "return z >= VNDF_R(0.0) ? v.r + vndf_impl_abs(z) : vndf_impl_hidden_area(v);",
-     "return v.r + vndf_impl_abs(z);",
+     "return z >= VNDF_R(0.0) ? vndf_impl_front_area(v) : vndf_impl_hidden_area(v);",
+     "return vndf_impl_front_area(v);",
      "vndf_ggx_sigma",
      {"pointwise, maximum"}},
     // For every alpha: with a choice between both forms, LLVM 19 of PoCL 6.0 gives up.
@@ -32,7 +32,7 @@
     // Numerical ones.
     {"the projected area by a sum that cancels below the horizon",
      "impl/stretch.h",
-     "return z >= VNDF_R(0.0) ? v.r + vndf_impl_abs(z) : vndf_impl_hidden_area(v);",
+     "return z >= VNDF_R(0.0) ? vndf_impl_front_area(v) : vndf_impl_hidden_area(v);",
      "return v.r + z;",
      "vndf_ggx_sigma",
      {"pointwise, maximum"}},
