@@ -6,7 +6,6 @@ int main() {
     const vndf_float3 wo = {0.6f, 0.0f, 0.8f};  // unit, away from the surface, z along its normal
     const vndf_float2 alpha = {0.5f, 0.1f};
     const vndf_float2 u = {0.25f, 0.75f};  // uniform in [0, 1)
-
     const vndf_float3 wm = vndf_ggx_sample_wm_dupuy2023(wo, alpha, u);
     const vndf_float3 wi = vndf_reflect(wo, wm);
     const float weight = wi.z > 0 ? vndf_ggx_g2(wo, wi, alpha) / vndf_ggx_g1(wo, alpha) : 0;
