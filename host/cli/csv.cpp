@@ -205,7 +205,7 @@ R parse_number(std::string_view cell) {
 template <class R>
 void append_number(std::string& out, R number, bool hex) {
     if (std::isnan(number)) {
-        out += "nan";  // its sign and payload are nobody's promise
+        out += "nan";  // sign and payload are unspecified
         return;
     }
     if (std::signbit(number)) out += '-';

@@ -71,8 +71,8 @@ VNDF_FN VNDF_REAL vndf_jacobian_reflect(VNDF_REAL3 wo, VNDF_REAL3 wm) {
 // Accuracy: 16 eps; double 20.
 //     Where |wi . m| is above one unit; below, the rounding of wi has left nothing of it.
 VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL eta) {
-    // Never the second choice: each component waits for the one before, since LLVM would pack the alike sums (see
-    // vndf_impl_view_of).
+    // Each component is made dependent on the one before, so that LLVM's SLP pass does not pack the alike sums
+    // (impl/stretch.h); the second choice is never taken.
     struct vndf_impl_pair x = vndf_impl_eta_sum(wo.x, eta, wi.x);
     struct vndf_impl_pair y = vndf_impl_eta_sum(wo.y, x.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.y);
     struct vndf_impl_pair z = vndf_impl_eta_sum(wo.z, y.head <= VNDF_REAL_MAX ? eta : VNDF_R(1.0), wi.z);

@@ -108,7 +108,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8 eps; double 20.
 VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wi's factor waits for wo's, 0 or not: side by side the two would be packed (impl/stretch.h).
+    // wi's factor is made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
     VNDF_REAL g1 = vndf_ggx_g1(wo, alpha);
     VNDF_REAL2 alpha_i =
         VNDF_MAKE2(g1 > VNDF_R(0.0) ? alpha.x : VNDF_R(1.0), g1 > VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));

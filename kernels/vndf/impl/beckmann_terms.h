@@ -97,7 +97,8 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     int away = rounded && !front && tau < VNDF_R(0.0);
     VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
     // Powers of two apart: below the horizon l I(a) may be as small as weight.
-    // Each waits for the one before, which is positive: side by side they would be packed (impl/stretch.h).
+    // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
+    // (impl/stretch.h).
     struct vndf_impl_power area = vndf_impl_split(front ? VNDF_FMA(l * s.gaussian, s.hidden, wo.z) : l),
                            scale;
     struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? s.hidden : VNDF_R(1.0));
