@@ -91,7 +91,7 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
     sigma_ = std::pow(std::sin(v.nu / 2), 2);
     tan_half_ = std::sin(v.theta / 2) / std::sin(v.nu / 2);
     const bool behind = !(wo.z > 0);  // where every reflection is that of the plain cap
-    kind_ = behind && known_.kind != Kind::beckmann ? Kind::ggx : known_.kind;
+    kind_ = behind && ndf_of(known_.kind) == Ndf::ggx ? Kind::ggx : known_.kind;
     const Slopes<double> s = beckmann_slopes(v.sin_theta, v.cos_theta);
     a_ = s.a, weight_ = s.weight;
     const Bound<double> b = known_.polygon ? polygon_bound(v, wo) : bound(v, wo);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -87,6 +88,18 @@ class Distribution {
   private:
     // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
     enum class Kind { ggx, bounded, conic, beckmann };
+    enum class Ndf { ggx, beckmann };
+    static constexpr Ndf ndf_of(Kind kind) {
+        switch (kind) {
+            case Kind::ggx:
+            case Kind::bounded:
+            case Kind::conic:
+                return Ndf::ggx;
+            case Kind::beckmann:
+                return Ndf::beckmann;
+        }
+        throw std::logic_error("no distribution of this kind");
+    }
     struct Known;
     struct Range;
     struct Node;

@@ -59,9 +59,16 @@ Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
 
 // What the density is divided by. (Beckmann behind the surface: without e^(-a^2).)
 double Distribution::normaliser() const {
-    if (kind_ == Kind::bounded || kind_ == Kind::conic) return cap_;
-    if (kind_ == Kind::ggx) return sigma_;
-    return a_ > 1e6 ? 1 : sin_ * weight_ / 2;
+    switch (kind_) {
+        case Kind::bounded:
+        case Kind::conic:
+            return cap_;
+        case Kind::ggx:
+            return sigma_;
+        case Kind::beckmann:
+            return a_ > 1e6 ? 1 : sin_ * weight_ / 2;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 Distribution::Range Distribution::range(double phi) const {
@@ -116,7 +123,15 @@ void Distribution::cumulative(double phi, const std::vector<double>& tan_theta, 
         return (cos_ * -std::expm1(-r * r) + in.slope * (root_pi / 2 * std::erf(r) - (e > 0 ? r * e : 0))) /
                2;
     };
-    const auto integral = [&](double r) { return kind_ == Kind::beckmann ? beckmann(r) : ggx(r); };
+    const auto integral = [&](double r) {
+        switch (ndf_of(kind_)) {
+            case Ndf::ggx:
+                return ggx(r);
+            case Ndf::beckmann:
+                return beckmann(r);
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    };
     if (!(in.lo < in.hi)) {
         std::fill(mass, mass + tan_theta.size(), 0);
         return;

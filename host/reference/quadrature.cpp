@@ -83,10 +83,14 @@ void Distribution::add_slope_nodes(QuadratureRule& rule, bool fine) const {
 
 QuadratureRule Distribution::rule(int fineness) const {
     QuadratureRule rule;
-    if (kind_ == Kind::beckmann)
-        add_slope_nodes(rule, fineness > 0);
-    else
-        add_polar_nodes(rule, fineness);
+    switch (ndf_of(kind_)) {
+        case Ndf::ggx:
+            add_polar_nodes(rule, fineness);
+            break;
+        case Ndf::beckmann:
+            add_slope_nodes(rule, fineness > 0);
+            break;
+    }
     return rule;
 }
 
