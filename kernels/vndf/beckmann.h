@@ -21,7 +21,7 @@
 // wm: unit normal, local frame.
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
-// Accuracy: 8 eps (1 + 2 q); double 20.
+// Accuracy: 8 eps (1 + 2 q); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
 }
@@ -31,7 +31,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 //     supplement 1, Section 3.1, scaled by alpha.
 // slope: (x, y) of the normal (-x, -y, 1), any real numbers.
 // return: per unit of slope area, integral 1.
-// Accuracy: 8 eps (1 + 2 q); double 20.
+// Accuracy: 6 eps (1 + 2 q); double 6.
 VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(slope.x, slope.y, VNDF_R(1.0), vndf_impl_alpha(alpha.x),
                                 vndf_impl_alpha_y(alpha.y));
@@ -42,7 +42,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 // w: unit vector, local frame.
 // return: >= 0 above the horizon. Below it, sigma(w) / w.z - 1 = -1 - Lambda(-w), so that (1 + Lambda) w.z is the
 //     projected area everywhere. The largest finite number at the pole w.z = 0.
-// Accuracy: 8 eps (1 + 2 q); double 20.
+// Accuracy: 8 eps (1 + 2 q); double 9.
 //     q = a^2.
 VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL upper = vndf_impl_beckmann_upper_lambda(w, alpha);
@@ -53,7 +53,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2: w.z / G1(w), as max(w.z, 0) + l e^(-a^2) I(|a|).
 // w: unit vector, local frame, anywhere on the sphere.
 // return: >= 0, per unit area of the macrosurface. Integral of D max(w . m, 0).
-// Accuracy: 8 eps (1 + 2 q); double 20.
+// Accuracy: 8 eps (1 + 2 q); double 9.
 //     q = a^2 below the horizon, 0 above it.
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
@@ -66,7 +66,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 43: 1 / (1 + Lambda) = w.z / sigma(w).
 // w: unit vector, local frame.
 // return: in [0, 1]; 0 for w.z <= 0.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return w.z > VNDF_R(0.0) ? vndf_impl_min(w.z / vndf_beckmann_sigma(w, alpha), VNDF_R(1.0)) : VNDF_R(0.0);
 }
@@ -75,7 +75,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     // wi's terms are made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
     VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
@@ -92,7 +92,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // Source: Heitz 2014, Equation 98.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
 }
@@ -103,7 +103,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
 // wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
-// Accuracy: 16 eps (1 + 2 q); double 20.
+// Accuracy: 12 eps (1 + 2 q); double 13.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
     VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z);
@@ -117,7 +117,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 
 // wo: unit vector, local frame, anywhere on the sphere.
 // wi: unit vector, local frame, anywhere on the sphere: a reflection may fall below the horizon.
 // return: per steradian of wi; 0 where the half vector points to or below the horizon.
-// Accuracy: 16 eps (1 + 2 q); double 20.
+// Accuracy: 15 eps (1 + 2 q); double 14.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use a sampler's _with_pdf form
 //     there.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
@@ -139,7 +139,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
 // Source: Walter et al. 2007, Equation 24.
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0.
-// Accuracy: 16 eps (1 + 2 q); double 20.
+// Accuracy: 8 eps (1 + 2 q); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_finite(vndf_beckmann_ndf(wm, alpha) * wm.z);
 }
@@ -151,7 +151,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alph
 // cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
 // slope: x of the normal (-x, ., 1), positive away from the view direction.
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 9 eps (1 + condition number); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
@@ -168,7 +168,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // Source: Heitz & d'Eon 2014, supplement 1, Section 3.2.
 // cos_theta, slope: as for vndf_beckmann_slope_pdf.
 // return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 10 eps (1 + condition number); double 10.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     VNDF_REAL x = vndf_impl_slope(slope);
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
@@ -186,7 +186,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // cos_theta: in [-1, 1].
 // u1: probability.
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 7 eps (1 + condition number); double 7.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
     struct vndf_impl_incidence_slopes i =
         vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));

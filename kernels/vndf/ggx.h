@@ -18,7 +18,7 @@
 // wm: unit normal, local frame.
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
@@ -31,7 +31,7 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 //     2014, supplement 1, Section 4.1, scaled by alpha.
 // slope: (x, y) of the normal (-x, -y, 1), any real numbers.
 // return: per unit of slope area, integral 1.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 11.
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     // Beyond 2^58 alpha (double: 2^506 alpha) nothing of the density is left.
@@ -49,7 +49,7 @@ VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
 // w: unit vector, local frame.
 // return: >= 0 above the horizon. Below it, sigma(w) / w.z - 1 = -1 - Lambda(-w), so that (1 + Lambda) w.z is
 //     the projected area everywhere. The largest finite number (largest negative below) at the pole w.z = 0.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
@@ -64,7 +64,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // w: unit vector, local frame, anywhere on the sphere.
 // return: (w.z + t) / 2, in [0, max(1, alpha)]: per unit area of the macrosurface; the
 //     integral of D max(w . m, 0).
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 11.
 //     Also below the horizon.
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
@@ -76,7 +76,7 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 43: w.z / sigma = 2 w.z / (w.z + t).
 // w: unit vector, local frame.
 // return: in [0, 1]; 0 for w.z <= 0.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
@@ -88,7 +88,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 //     i = wi.z, divided by the larger cosine so that nothing underflows.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view o = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
@@ -106,7 +106,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
 // Source: Heitz 2014, Equation 98.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 20.
+// Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     // wi's factor is made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
     VNDF_REAL g1 = vndf_ggx_g1(wo, alpha);
@@ -120,7 +120,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
 // wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
-// Accuracy: 16 eps; double 20.
+// Accuracy: 14 eps; double 13.
 //     Also where wo . wm or 1 + wo.z nearly vanish.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
@@ -152,7 +152,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha
 // Source: Walter et al. 2007, Equation 24.
 // wm: unit normal, local frame.
 // return: per steradian of wm; 0 for wm.z <= 0.
-// Accuracy: 16 eps; double 20.
+// Accuracy: 11 eps; double 12.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_finite(vndf_ggx_ndf(wm, alpha) * wm.z);
 }
@@ -164,7 +164,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // cos_theta: of the view direction, in [-1, 1] (at -1 nothing is visible: 0).
 // x: slope of the normal (-x, ., 1), positive away from the view direction.
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 7 eps (1 + condition number); double 7.
 VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     // Nothing is left where the square of x would overflow.
     int beyond = vndf_impl_beyond(vndf_impl_abs(x), vndf_impl_abs(x));
@@ -179,7 +179,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
 //     x = tan psi, written so that the tail x -> -infinity keeps its digits.
 // cos_theta, x: as for vndf_ggx_slope_pdf.
 // return: in [0, 1]; 1 for x >= cot(theta), and for cos_theta = -1, where nothing is visible.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 7 eps (1 + condition number); double 7.
 VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta), p = VNDF_R(1.0) + cos_theta;
     // Where the square of x would overflow, its root is |x|.
@@ -196,7 +196,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
 // cos_theta: in [-1, 1].
 // u1: probability.
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
-// Accuracy: 16 eps (1 + condition number); double 20.
+// Accuracy: 5 eps (1 + condition number); double 5.
 VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     VNDF_REAL p = VNDF_R(1.0) + cos_theta, q = VNDF_R(1.0) - cos_theta;

@@ -235,7 +235,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l,
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_conic2026, for many u and one wo and alpha.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 1.5 behind the surface; double 2, 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026(lobe, u));
 }
@@ -246,7 +246,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_lobe_with_pdf(struct vndf_ggx_co
 }
 
 // The density of a lobe's reflections: as vndf_ggx_pdf_wi_conic2026.
-// Accuracy: 24 eps; double 24.
+// Accuracy: 24 eps; double 22.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe, VNDF_REAL3 wi) {
     struct vndf_impl_half h =
         vndf_impl_half_of(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), wi, lobe.alpha_x, lobe.alpha_y);
@@ -262,7 +262,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026_lobe(struct vndf_ggx_conic2026 lobe,
 //     stratified points stay stratified.
 // return: unit vector wi, wi.z > 0 for wo.z > 0, with density vndf_ggx_pdf_wi_conic2026(wo, wi, alpha). For reflection
 //     alone: refraction needs a plain visible normal.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 1.5 behind the surface; double 2, 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026(vndf_ggx_conic2026_lobe(wo, alpha), u));
 }
@@ -280,7 +280,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_with_pdf(VNDF_REAL3 wo, VNDF_REA
 //     vndf_ggx_sigma.
 // alpha: in [1e-8, 1e3] each.
 // return: in [0, sigma(w)], per unit area of the macrosurface: sigma times the integral of vndf_ggx_pdf_wi over wi.z > 0.
-// Accuracy: 16 eps; double 20.
+// Accuracy: 16 eps; double 21.
 //     Double against quadrature along the horizon: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL sigma = VNDF_R(0.5) * vndf_impl_twice_sigma_visible(vndf_impl_stretch(w, alpha));
@@ -305,7 +305,7 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wi; 0 for wi.z <= 0 above the surface. For wo.z <= 0 the same as vndf_ggx_pdf_wi.
-// Accuracy: 24 eps; double 24.
+// Accuracy: 24 eps; double 22.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
@@ -344,7 +344,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_conic_invert(struct vndf_ggx_conic2026 l, struct vn
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // alpha: in [1e-8, 1e3] each.
 // return: (u.x, u.y) in [0, 1]. A wi below the horizon, which no u gives, counts as one on it; (0, 0) for wi = -wo.
-// Accuracy: 4 eps (1 + condition number), 99th percentile; double 4.
+// Accuracy: 2 eps (1 + condition number), 99th percentile; double 2.
 //     Where wi is the mirror image of wo to within rounding.
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
@@ -419,7 +419,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
 // wo: as there. At normal incidence the azimuth 0 counts as the one of wo.
 // alpha: in [1e-8, 1e3].
 // u, return: as there.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026_isotropic(wo, alpha, u));
 }

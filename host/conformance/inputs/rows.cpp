@@ -80,8 +80,7 @@ double distance(const Function& function, const std::array<double, 4>& a, const 
 }  // namespace
 
 double absolute_condition(const Function& function, reference::Evaluation<double> evaluation,
-                          const double* row, reference::Precision precision, int output) {
-    constexpr double step = 0x1p-24;
+                          const double* row, reference::Precision precision, int output, double step) {
     std::array<double, 16> in{};
     std::array<double, 4> low{}, high{};
     std::copy(row, row + function.inputs.size(), in.begin());

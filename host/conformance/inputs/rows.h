@@ -58,10 +58,11 @@ double beckmann_exponent(const Direction& m, std::array<double, 2> alpha);
 bool at_edge(const Function& density, const double* row, runtime::Real real);
 
 // The condition of a function's result, or of one of its outputs: sum over the inputs of |x_j| ||df/dx_j||, by
-// differences of the reference over a rounding error of float either way. Divided by the size of the result it is
+// differences of the reference over `step`, a rounding error of float, either way. Divided by the size of the result it is
 // the relative condition number.
 double absolute_condition(const Function& function, reference::Evaluation<double> evaluation,
-                          const double* row, reference::Precision precision, int output = -1);
+                          const double* row, reference::Precision precision, int output = -1,
+                          double step = 0x1p-24);
 
 // The relative one, infinite where the result is 0. Where it is not well below 2^24 the differences mean nothing
 // (a switch between branches, a lobe narrower than the step): see is_settled.

@@ -1,5 +1,6 @@
 #include "conformance/judge/values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -109,8 +110,12 @@ double error_at(const Judge& j, std::size_t i) {
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
     if (j.function.unit == Unit::condition) {
-        const double condition = absolute_condition(
-            j.function, reference::find_evaluation<double>(j.function.name), row.data(), precision(j.real));
+        const auto evaluation = reference::find_evaluation<double>(j.function.name);
+        double condition = absolute_condition(j.function, evaluation, row.data(), precision(j.real));
+        // In double a lobe may be narrower than a rounding error of float.
+        if (j.real == Real::f64)
+            condition = std::max(condition, absolute_condition(j.function, evaluation, row.data(),
+                                                               precision(j.real), -1, 0x1p-38));
         if (j.function.kind == Kind::inverse && !is_settled(condition)) return skip;
         return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
     }
