@@ -137,7 +137,8 @@ TEST_CASE("a kernel with an invalid access and a data race", "[.planted]") {
     const runtime::Program program(runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32,
                                    options);
     cl::Kernel kernel = program.kernel("planted");
-    kernel.setArg(0, program.buffer(std::size_t{4 * 64}));
+    const cl::Buffer buffer = program.buffer(std::size_t{4 * 64});
+    kernel.setArg(0, buffer);
     program.launch(kernel, 64);
     program.queue().finish();
 }
