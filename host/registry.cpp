@@ -110,6 +110,14 @@ const std::vector<LobeFunction>& lobe_functions() {
     return all;
 }
 
+double length_bound(std::string_view result) {
+    return result == "WI" ? VNDF_BOUND_LENGTH_WI : VNDF_BOUND_LENGTH_WM;
+}
+
+double side_bound() {
+    return VNDF_BOUND_SIDE;
+}
+
 const Function* find_function(std::string_view name) {
     static const auto by_name = [] {
         std::unordered_map<std::string_view, const Function*> map;

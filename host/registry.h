@@ -29,6 +29,10 @@ struct Bounds {
     double error = 0;  // of other kinds
 };
 
+// Of every sampler, in those units: how far the length of a "WM" or "WI" is from 1, and how far a normal is on the wrong side.
+double length_bound(std::string_view result);
+double side_bound();
+
 struct Function {
     std::string name;       // with the suffix _with_pdf for that form of a sampler
     std::string plain;      // without it

@@ -6,7 +6,6 @@
 """
 import pathlib
 import re
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -19,9 +18,8 @@ APART = [("host/reference", "kernels")]
 
 
 def sources():
-    listed = subprocess.run(["git", "ls-files", "kernels", "host", "bench"], cwd=ROOT, check=True, text=True,
-                            stdout=subprocess.PIPE).stdout.split()
-    return {name for name in listed if re.search(r"\.(h|cpp|cl|def)$", name)}
+    found = (path for folder in ("kernels", "host", "bench") for path in (ROOT / folder).rglob("*"))
+    return {str(path.relative_to(ROOT)) for path in found if path.suffix in (".h", ".cpp", ".cl", ".def")}
 
 
 def graph():

@@ -8,9 +8,9 @@
 // number of offenders, then the first offender's index. The host sets it to 0 and ~0. Invariants, in order:
 //
 //   finite   all four numbers, by their bits: fast math would fold a comparison
-//   unit     the length of the direction within 4 eps, of a reflection 8 eps, eps = 2^-24
-//   upper    wm.z >= 0; about a normal n, wm . n >= -4 eps; for a reflection the half vector's height
-//   faces    wm . wo >= -4 eps; a reflection lies in its cap; the normal where that is documented
+//   unit     the length of the direction within the registry's bound
+//   upper    wm.z >= 0; about a normal n, wm . n no further below 0 than the bound; for a reflection the half vector's height
+//   faces    wm . wo likewise; a reflection lies in its cap; the normal where that is documented
 //   density  positive, and 0 where there is no distribution
 //
 // The strip is a loop inside an item: it has no memory access, so that CPU devices turn it into vector code.
@@ -91,9 +91,9 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 
 // The invariants `upper` and `faces` by the kind of result and of arguments. A plain distribution of normals has no wo.
 #define VNDF_EXHAUSTIVE_DOT(d, v) vndf_impl_dot(d.x, d.y, d.z, v##_x, v##_y, v##_z)
-#define VNDF_EXHAUSTIVE_SLACK (VNDF_R(-4.0) * VNDF_EPSILON)
-#define VNDF_EXHAUSTIVE_UNIT_WM(d) vndf_exhaustive_unit(d, VNDF_R(4.0) * VNDF_EPSILON)
-#define VNDF_EXHAUSTIVE_UNIT_WI(d) vndf_exhaustive_unit(d, VNDF_R(8.0) * VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_SLACK (-VNDF_BOUND_SIDE * VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_UNIT_WM(d) vndf_exhaustive_unit(d, VNDF_BOUND_LENGTH_WM* VNDF_EPSILON)
+#define VNDF_EXHAUSTIVE_UNIT_WI(d) vndf_exhaustive_unit(d, VNDF_BOUND_LENGTH_WI* VNDF_EPSILON)
 #define VNDF_EXHAUSTIVE_UPPER_WM_WO_ALPHA_U(d) (d.z >= VNDF_R(0.0))
 #define VNDF_EXHAUSTIVE_UPPER_WM_ALPHA_U(d) (d.z >= VNDF_R(0.0))
 #define VNDF_EXHAUSTIVE_UPPER_WM_WO_N_ALPHA1_U(d) (VNDF_EXHAUSTIVE_DOT(d, n) >= VNDF_EXHAUSTIVE_SLACK)

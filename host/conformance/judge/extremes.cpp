@@ -93,7 +93,7 @@ Finding unit(runtime::Evaluator& evaluator, const Function& sampler, const Point
     const Columns results = evaluate(evaluator, sampler, table);
     Errors errors;
     for (std::size_t i = 0; i < table.rows(); ++i) errors.add(length_error(results, i) / epsilon(real), i);
-    const double limit = (sampler.result == "WI" ? 8 : 4) * (options.math == Math::native ? 8 : 1);
+    const double limit = length_bound(sampler.result) * (options.math == Math::native ? 8 : 1);
     return make_finding("unit length for any length of wo", errors.max(), limit, "eps", errors, sampler,
                         table);
 }
@@ -129,8 +129,9 @@ Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
         if (sampler.with_pdf && results[3][i] != 0) off = 1;
         errors.add(off / epsilon(real), i);
     }
-    return make_finding("as documented at wo = -n", errors.max(), 4 * (options.math == Math::native ? 8 : 1),
-                        "eps", errors, sampler, table);
+    return make_finding("as documented at wo = -n", errors.max(),
+                        length_bound("WM") * (options.math == Math::native ? 8 : 1), "eps", errors, sampler,
+                        table);
 }
 
 }  // namespace

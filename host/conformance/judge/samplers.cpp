@@ -119,7 +119,7 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
     const MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
                                                : map_errors<long double>(sampler, table, results, real);
     const double factor = slack(options.math), loose = options.math == Math::native ? 8 : 1;
-    const bool wi = sampler.result == "WI", world = column(sampler, "n_x") >= 0;
+    const bool world = column(sampler, "n_x") >= 0;
     const SamplerBounds& bounds = bounds_of(sampler, real).sampler;
 
     std::vector<Finding> findings;
@@ -138,11 +138,12 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
     if (errors.outside.count())
         add("documented direction outside the domain", errors.outside.max(), 0, "rows", errors.outside);
     add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
-    add("unit length", errors.length.max(), (wi ? 8 : 4) * loose, "eps", errors.length);
+    add("unit length", errors.length.max(), length_bound(sampler.result) * loose, "eps", errors.length);
     if (errors.below.count())
-        add("normal above the surface", errors.below.max(), world ? 4 * loose : 0, world ? unit : "eps",
-            errors.below);
-    if (errors.behind.count()) add("normal faces wo", errors.behind.max(), 4 * loose, "eps", errors.behind);
+        add("normal above the surface", errors.below.max(), world ? side_bound() * loose : 0,
+            world ? unit : "eps", errors.below);
+    if (errors.behind.count())
+        add("normal faces wo", errors.behind.max(), side_bound() * loose, "eps", errors.behind);
     return findings;
 }
 
