@@ -80,10 +80,8 @@ Session::Session(const runtime::Device& device)
 const conformance::Table& Session::table(const Function& function, Real real) {
     auto [found, missing] = tables_.try_emplace(function.name + std::string(to_string(real)));
     if (missing) {
-        const auto rounding =
-            real == Real::f32 ? conformance::Rounding::to_float : conformance::Rounding::none;
         found->second =
-            conformance::tabulate(function, points(distinct_rows, in_world_space(function)), rounding);
+            conformance::tabulate(function, points(distinct_rows, in_world_space(function)), real);
     }
     return found->second;
 }

@@ -153,15 +153,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alph
 // return: per unit of slope, integral 1 over x < cot(theta); 0 beyond.
 // Accuracy: 9 eps (1 + condition number); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
-    VNDF_REAL x = vndf_impl_slope(slope);
-    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
-    VNDF_REAL exponent = i.front ? x * x : y * VNDF_FMA(VNDF_R(2.0), i.a, y);
-    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? visible : y) / i.sigma;
+    struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
+    struct vndf_impl_incidence_slopes i = s.slopes;
+    VNDF_REAL exponent = i.front ? s.x * s.x : s.y * VNDF_FMA(VNDF_R(2.0), i.a, s.y);
+    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? s.visible : s.y) / i.sigma;
     VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
-    return visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return s.visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
 // Its cumulative distribution.
@@ -170,14 +167,10 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // return: in [0, 1]; 1 for slope >= cot(theta), and for cos_theta = -1, where nothing is visible.
 // Accuracy: 10 eps (1 + condition number); double 10.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
-    VNDF_REAL x = vndf_impl_slope(slope);
-    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    struct vndf_impl_incidence_slopes i = vndf_impl_beckmann_incidence(cos_theta, sine);
-    VNDF_REAL visible = vndf_impl_visible_cosine(cos_theta, x);
-    VNDF_REAL y = vndf_impl_max(visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
-    int edge = vndf_impl_slope_is_edge(i, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(i, edge, edge ? y : -x, 0, 1).mass;
-    return visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
+    struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
+    int edge = vndf_impl_slope_is_edge(s.slopes, 0);
+    VNDF_REAL cdf = vndf_impl_slope_mass_of(s.slopes, edge, edge ? s.y : -s.x, 0, 1).mass;
+    return s.visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 
 // The inverse of vndf_beckmann_slope_cdf.

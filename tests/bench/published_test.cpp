@@ -43,7 +43,7 @@ std::vector<Point> front_lobes(const Function& sampler) {
 // The tests of one lobe that say that the directions `sampler` drew are not those of `density_of`.
 std::string failures(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Function& density_of,
                      const Point& lobe, std::uint64_t stream, double level) {
-    const Table table = tabulate(sampler, {lobe}, Rounding::to_float);
+    const Table table = tabulate(sampler, {lobe}, runtime::Real::f32);
     std::vector<std::vector<float>> columns;
     std::vector<const void*> inputs;
     for (const double value : table.row(0)) columns.emplace_back(samples, static_cast<float>(value));

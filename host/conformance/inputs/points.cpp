@@ -116,14 +116,13 @@ std::vector<double> Table::row(std::size_t i) const {
     return result;
 }
 
-Table tabulate(const Function& function, const std::vector<Point>& points, Rounding rounding) {
+Table tabulate(const Function& function, const std::vector<Point>& points, runtime::Real real) {
     Table table;
     for (const std::string& name : function.inputs) {
         std::vector<double>& values = table.columns.emplace_back();
         values.reserve(points.size());
         for (const Point& point : points) {
-            const double value = point.scalar(name);
-            values.push_back(rounding == Rounding::to_float ? static_cast<float>(value) : value);
+            values.push_back(rounded(point.scalar(name), real));
         }
     }
     return table;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "registry.h"
+#include "runtime/evaluator.h"
 
 namespace vndf::conformance {
 
@@ -47,10 +48,13 @@ struct Table {
     std::vector<double> row(std::size_t i) const;
 };
 
-enum class Rounding { to_float, none };
+// The number of the type that is nearest to x.
+inline double rounded(double x, runtime::Real real) {
+    return real == runtime::Real::f32 ? static_cast<float>(x) : x;
+}
 
-// `points` as the inputs of `function`.
-Table tabulate(const Function& function, const std::vector<Point>& points, Rounding);
+// `points` as the inputs of `function`, rounded to the type.
+Table tabulate(const Function& function, const std::vector<Point>& points, runtime::Real);
 
 // The index of the column `name` among the inputs, or -1.
 int column(const Function& function, std::string_view name);

@@ -9,7 +9,7 @@ Table pointwise_table(const Function& function, Real real, const PointwiseOption
     const std::vector<Point> hard = hard_points(function);
     for (std::size_t i = 0; i < hard.size(); i += options.hard_stride) points.push_back(hard[i]);
     for (const Point& point : guard_points(function)) points.push_back(point);
-    return tabulate(function, points, real == Real::f32 ? Rounding::to_float : Rounding::none);
+    return tabulate(function, points, real);
 }
 
 }  // namespace vndf::conformance

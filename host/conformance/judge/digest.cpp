@@ -209,7 +209,6 @@ BitDifference difference(const Function& function, const Table& table, const Col
 }  // namespace
 
 Table digest_inputs(const Function& function, std::size_t rows, Real real) {
-    const Rounding rounding = real == Real::f32 ? Rounding::to_float : Rounding::none;
     const bool world = column(function, "n_x") >= 0;
     const std::vector<Point> grid = hard_points(function);
     const bool whole = grid.size() <= rows / 2;
@@ -224,7 +223,7 @@ Table digest_inputs(const Function& function, std::size_t rows, Real real) {
     parallel_for(rows, std::size_t{1} << 12, [&](unsigned, std::size_t begin, std::size_t end) {
         std::vector<Point> points;
         for (std::size_t row = begin; row < end; ++row) points.push_back(point(row));
-        const Table part = tabulate(function, points, rounding);
+        const Table part = tabulate(function, points, real);
         for (std::size_t j = 0; j < part.columns.size(); ++j)
             std::copy(part.columns[j].begin(), part.columns[j].end(), table.columns[j].begin() + begin);
     });

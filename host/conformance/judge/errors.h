@@ -29,6 +29,11 @@ constexpr double slack(Math math) {
     return math == Math::strict ? 1 : math == Math::builtin ? 4 : 16;
 }
 
+// The same for length_bound and side_bound, which builtin meets as strict does.
+constexpr double invariant_slack(Math math) {
+    return math == Math::native ? 8 : 1;
+}
+
 // A collection of errors, each with the row that made it. NaN counts as infinite.
 class Errors {
   public:

@@ -18,17 +18,21 @@ class Sizes {
   public:
     explicit Sizes(Real real) : f32_(real == Real::f32) {}
 
+    double largest() const {
+        return f32_ ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
+    }
+
     double number() {
-        const int least = f32_ ? -149 : -1074, largest = f32_ ? 127 : 1023;
+        const int least = f32_ ? -149 : -1074, end = f32_ ? 127 : 1023;
         const double sign = engine_() % 2 ? 1 : -1;
         switch (engine_() % 8) {
             case 0:
                 return sign * 0.0;
             case 1:
-                return sign * (f32_ ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max());
+                return sign * largest();
             default:
                 return sign * std::ldexp(1 + static_cast<double>(engine_() >> 41) * 0x1p-23,
-                                         least + static_cast<int>(engine_() % (largest - least)));
+                                         least + static_cast<int>(engine_() % (end - least)));
         }
     }
     bool chance() { return engine_() % 2; }
@@ -60,10 +64,6 @@ void make_extreme(const Function& function, Sizes& sizes, std::vector<double>& r
     }
 }
 
-Rounding rounding(Real real) {
-    return real == Real::f32 ? Rounding::to_float : Rounding::none;
-}
-
 double not_finite(const Columns& results, std::size_t i) {
     return std::all_of(results.begin(), results.end(), [&](const auto& c) { return std::isfinite(c[i]); })
                ? 0
@@ -89,11 +89,11 @@ Finding unit(runtime::Evaluator& evaluator, const Function& sampler, const Point
     for (std::size_t i = 0; i < points.size(); ++i)
         for (double& x : points[i].wo) x *= std::array{1e-3, 0.03, 40.0, 1e3}[i % 4];
     const Real real = evaluator.input_real();
-    const Table table = tabulate(sampler, points, rounding(real));
+    const Table table = tabulate(sampler, points, real);
     const Columns results = evaluate(evaluator, sampler, table);
     Errors errors;
     for (std::size_t i = 0; i < table.rows(); ++i) errors.add(length_error(results, i) / epsilon(real), i);
-    const double limit = length_bound(sampler.result) * (options.math == Math::native ? 8 : 1);
+    const double limit = length_bound(sampler.result) * invariant_slack(options.math);
     return make_finding("unit length for any length of wo", errors.max(), limit, "eps", errors, sampler,
                         table);
 }
@@ -114,7 +114,7 @@ Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
                 }
     }
     const Real real = evaluator.input_real();
-    const Table table = tabulate(sampler, points, rounding(real));
+    const Table table = tabulate(sampler, points, real);
     const Columns results = evaluate(evaluator, sampler, table);
     const RowReader reader(sampler);
     Errors errors;
@@ -130,25 +130,20 @@ Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
         errors.add(off / epsilon(real), i);
     }
     return make_finding("as documented at wo = -n", errors.max(),
-                        length_bound("WM") * (options.math == Math::native ? 8 : 1), "eps", errors, sampler,
-                        table);
+                        length_bound("WM") * invariant_slack(options.math), "eps", errors, sampler, table);
 }
 
 }  // namespace
 
 Table extreme_table(const Function& function, Real real, std::size_t rows) {
-    const Table plain = tabulate(function, random_points(function, rows, 1), rounding(real));
+    const Table plain = tabulate(function, random_points(function, rows, 1), real);
     Table table = plain;
     Sizes sizes(real);
     for (std::size_t i = 0; i < rows; ++i) {
         std::vector<double> row = plain.row(i);
         make_extreme(function, sizes, row);
-        const double largest =
-            real == Real::f32 ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();
-        for (std::size_t j = 0; j < row.size(); ++j) {
-            const double x = std::clamp(row[j], -largest, largest);
-            table.columns[j][i] = real == Real::f32 ? static_cast<float>(x) : x;
-        }
+        for (std::size_t j = 0; j < row.size(); ++j)
+            table.columns[j][i] = rounded(std::clamp(row[j], -sizes.largest(), sizes.largest()), real);
     }
     return table;
 }

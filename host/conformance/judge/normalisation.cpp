@@ -29,9 +29,8 @@ Nodes nodes(const Function& density, const std::vector<double>& row, Real real) 
     result.inputs.columns[variable] = rule.x;
     result.inputs.columns[variable + 1] = rule.y;
     result.inputs.columns[variable + 2] = rule.z;
-    if (real == Real::f32)
-        for (std::vector<double>& column : result.inputs.columns)
-            for (double& value : column) value = static_cast<float>(value);
+    for (std::vector<double>& column : result.inputs.columns)
+        for (double& value : column) value = rounded(value, real);
     return result;
 }
 
@@ -58,13 +57,12 @@ double rounding_share(const Function& density, const Nodes& at, const std::vecto
 std::vector<Finding> check_normalisation(runtime::Evaluator& evaluator, const Function& density,
                                          const PointwiseOptions& options) {
     const Real real = evaluator.input_real();
-    const Rounding rounding = real == Real::f32 ? Rounding::to_float : Rounding::none;
     Finding finding;
     finding.check = "integral";
     finding.limit = 1;
     finding.unit = "tolerances";
     for (const Point& lobe : lobes(density, options.quick)) {
-        const std::vector<double> row = tabulate(density, {lobe}, rounding).row(0);
+        const std::vector<double> row = tabulate(density, {lobe}, real).row(0);
         const Nodes at = nodes(density, row, real);
         const std::vector<double> values = evaluate(evaluator, density, at.inputs).front();
         // Where rounding a direction decides about the density, only the pointwise comparison has a meaning.

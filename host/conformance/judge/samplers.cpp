@@ -118,7 +118,7 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
     const Columns results = evaluate(evaluator, sampler, table);
     const MapErrors errors = real == Real::f32 ? map_errors<double>(sampler, table, results, real)
                                                : map_errors<long double>(sampler, table, results, real);
-    const double factor = slack(options.math), loose = options.math == Math::native ? 8 : 1;
+    const double factor = slack(options.math), loose = invariant_slack(options.math);
     const bool world = column(sampler, "n_x") >= 0;
     const SamplerBounds& bounds = bounds_of(sampler, real).sampler;
 

@@ -52,8 +52,7 @@ class Drawer {
 
     Batch<T> draw(const Point& lobe, std::uint64_t stream) {
         const std::size_t n = inputs_.front().size();
-        const Table table =
-            tabulate(sampler_, {lobe}, sizeof(T) == sizeof(float) ? Rounding::to_float : Rounding::none);
+        const Table table = tabulate(sampler_, {lobe}, evaluator_.input_real());
         Batch<T> batch{table.row(0), std::vector<T>(n), std::vector<T>(n), std::vector<T>(n)};
         std::vector<const void*> in;
         for (std::size_t i = 0; i < inputs_.size(); ++i) {

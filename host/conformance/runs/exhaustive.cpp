@@ -64,7 +64,7 @@ struct Lobe {
 
 Lobe lobe_of(const Function& sampler, const Point& point) {
     Lobe lobe;
-    const Table table = tabulate(sampler, {point}, Rounding::to_float);
+    const Table table = tabulate(sampler, {point}, runtime::Real::f32);
     for (const std::vector<double>& column : table.columns) lobe.row.push_back(static_cast<float>(column[0]));
     if (column(sampler, "wo_x") < 0) return lobe;
     const auto at = [&](std::string_view name, float without) {
@@ -240,7 +240,7 @@ std::vector<Point> exhaustive_lobes(const Function& sampler) {
                 // Exactly n or -n in float, too.
                 if (std::abs(wo[2]) == 1 && wo[0] == 0)
                     for (int k = 0; k < 3; ++k) point.wo[k] = wo[2] * axes[n][k];
-                if (seen.insert(tabulate(sampler, {point}, Rounding::to_float).row(0)).second)
+                if (seen.insert(tabulate(sampler, {point}, runtime::Real::f32).row(0)).second)
                     points.push_back(point);
             }
     std::vector<Point> order;

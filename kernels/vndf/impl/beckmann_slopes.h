@@ -128,6 +128,21 @@ VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
     return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
 
+// A slope x as arguments give it: its visible cosine, and y, how far it is from the edge cot(theta), 0 beyond.
+struct vndf_impl_seen_slope {
+    struct vndf_impl_incidence_slopes slopes;
+    VNDF_REAL x, visible, y;
+};
+VNDF_FN struct vndf_impl_seen_slope vndf_impl_beckmann_seen_slope(VNDF_REAL cos_theta, VNDF_REAL slope) {
+    struct vndf_impl_seen_slope s;
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    s.slopes = vndf_impl_beckmann_incidence(cos_theta, sine);
+    s.x = vndf_impl_slope(slope);
+    s.visible = vndf_impl_visible_cosine(cos_theta, s.x);
+    s.y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    return s;
+}
+
 // Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
 // the Gaussian is cut far away, and below sqrt(L reach2), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for
 // a = 0, and the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
