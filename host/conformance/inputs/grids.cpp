@@ -179,6 +179,20 @@ std::vector<Point> silhouette_points(const Direction& n) {
     return points;
 }
 
+// Samples next to the rim of their cap, all round it: the last values of u2 (of conic2026: of the distance to the rim). What
+// rounding does to them, their separate density must forgive, in every quadrant.
+std::vector<Point> rim_points() {
+    std::vector<Point> points;
+    for (const auto& alpha : {std::array{.1, .1}, {.02, .02}, {.05, .6}, {.4, .03}})
+        for (const double cos_theta : {.9, .4, .15, .05})
+            for (const double azimuth : {.4, 2., -2.7, -1.})
+                for (int part = 0; part < 24; ++part)
+                    for (int last = 0; last < 3; ++last)
+                        points.push_back(make_point(direction(cos_theta, azimuth), alpha, {1, 0}, {0, 0, 1},
+                                                    {(part + .37) / 24, 1 - last * 0x1p-24}, 1.5));
+    return points;
+}
+
 // Reflections back to where wo came from, whose half vectors face away from wo, by less than rounding shows.
 std::vector<Point> returning_points() {
     std::vector<Point> points;
@@ -273,6 +287,8 @@ std::vector<Point> guard_points(const Function& function) {
         for (const Direction& n : axes)
             for (const auto& some : {silhouette_points(n), grazing_points()})
                 points.insert(points.end(), some.begin(), some.end());
+    if (function.kind == Kind::sampler && function.result == "WI")
+        for (const Point& point : rim_points()) points.push_back(point);
     if (uses(function, {"eta"})) {
         std::vector<Point> straight = straight_points();
         refract_some(function, straight);

@@ -37,7 +37,7 @@ VNDF_FN struct vndf_impl_mirror vndf_impl_mirror_of(VNDF_REAL wo_x, VNDF_REAL wo
 // Half vector h = wo + wi of the vectors as given, times a power of two `scale`; its squared length; q of D.
 struct vndf_impl_half {
     VNDF_REAL z, length2, q, scale;
-    VNDF_REAL q_slope;  // half the 1-norm of dq/dh
+    VNDF_REAL q_slope;  // half the 1-norm of dq/dh, for z > 0
 };
 VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL alpha_x,
                                                 VNDF_REAL alpha_y) {
@@ -55,7 +55,7 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     sy = VNDF_FMA(VNDF_FMA(-sy, alpha_y, y), rcp_y, sy);
     h.length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, h.z * h.z));
     h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
-    h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, vndf_impl_abs(h.z)));
+    h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, h.z));
     return h;
 }
 
