@@ -1,5 +1,5 @@
-// The published listings under bench/published are what clvndf bench compares with: a time only means something if the
-// listing draws from the distribution it was published for.
+// The published listings under bench/published, and their lean forms under bench/lean, are what clvndf bench compares with: a
+// time only means something if the listing draws from the distribution it was published for.
 #include <string>
 #include <vector>
 
@@ -19,11 +19,15 @@ using namespace vndf::conformance;
 
 constexpr std::size_t samples = std::size_t{1} << 17;
 
-runtime::DeviceEvaluator published() {
+runtime::DeviceEvaluator evaluator_of(const std::string& root, runtime::Math math) {
     runtime::ProgramOptions options;
-    options.root = "bench/published/batch.cl";
+    options.root = root;
     options.more_files = bench::sources();
-    return {runtime::choose_device().device, runtime::Math::builtin, runtime::Real::f32, options};
+    return {runtime::choose_device().device, math, runtime::Real::f32, options};
+}
+
+runtime::DeviceEvaluator published() {
+    return evaluator_of("bench/published/batch.cl", runtime::Math::builtin);
 }
 
 std::vector<const Function*> listings(const runtime::DeviceEvaluator& evaluator) {
@@ -62,17 +66,27 @@ std::string failures(runtime::DeviceEvaluator& evaluator, const Function& sample
 
 }  // namespace
 
-TEST_CASE("the published listings draw from their densities, the fit with its known bias") {
-    runtime::DeviceEvaluator evaluator = published();
-    const auto all = listings(evaluator);
-    REQUIRE(all.size() == 7);
-    std::size_t tests = 0;
-    for (const Function* f : all) tests += front_lobes(*f).size() * tests_per_lobe(*f);
-    for (const Function* f : all) {
-        std::uint64_t stream = 0;
-        for (const Point& lobe : front_lobes(*f)) {
-            CAPTURE(f->name, lobe.cos_theta, lobe.alpha[0], lobe.alpha[1]);
-            CHECK(failures(evaluator, *f, *f, lobe, ++stream, sidak(1e-6, tests)) == "");
+TEST_CASE(
+    "the published listings and their lean forms draw from their densities, the fit with its known bias") {
+    const struct {
+        std::string root;
+        runtime::Math math;
+        std::size_t listings;
+    } all_forms[] = {{"bench/published/batch.cl", runtime::Math::builtin, 7},
+                     {"bench/lean/batch.cl", runtime::Math::strict, 7},
+                     {"bench/lean/factored.cl", runtime::Math::strict, 3}};
+    for (const auto& form : all_forms) {
+        runtime::DeviceEvaluator evaluator = evaluator_of(form.root, form.math);
+        const auto all = listings(evaluator);
+        REQUIRE(all.size() == form.listings);
+        std::size_t tests = 0;
+        for (const Function* f : all) tests += front_lobes(*f).size() * tests_per_lobe(*f);
+        for (const Function* f : all) {
+            std::uint64_t stream = 0;
+            for (const Point& lobe : front_lobes(*f)) {
+                CAPTURE(form.root, f->name, lobe.cos_theta, lobe.alpha[0], lobe.alpha[1]);
+                CHECK(failures(evaluator, *f, *f, lobe, ++stream, sidak(1e-6, tests)) == "");
+            }
         }
     }
 }
@@ -80,11 +94,7 @@ TEST_CASE("the published listings draw from their densities, the fit with its kn
 TEST_CASE("the cap in a basis draws from the density of the isotropic sampler in world space") {
     const Function& world = *find_function("vndf_ggx_sample_wm_benyoub2024");
     for (const runtime::Math math : {runtime::Math::strict, runtime::Math::builtin}) {
-        runtime::ProgramOptions options;
-        options.root = "bench/cap_with_basis.cl";
-        options.more_files = bench::sources();
-        runtime::DeviceEvaluator evaluator(runtime::choose_device().device, math, runtime::Real::f32,
-                                           options);
+        runtime::DeviceEvaluator evaluator = evaluator_of("bench/cap_with_basis.cl", math);
         std::uint64_t stream = 0;
         for (const Point& lobe : front_lobes(world)) {
             CAPTURE(runtime::to_string(math), lobe.cos_theta, lobe.alpha[0], lobe.n[2]);
