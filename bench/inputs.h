@@ -1,13 +1,26 @@
 // The inputs that functions are timed on.
 #pragma once
 
+#include <string>
+
 #include "conformance/inputs/points.h"
 
 namespace vndf::bench {
 
-// wo uniform on the upper hemisphere (about n), each alpha log-uniform in [1e-3, 1], n uniform on the sphere, u
-// uniform, eta in [1.05, 2.5]; wm a visible normal of the lobe, wi the reflection of wo about it.
-std::vector<conformance::Point> points(std::size_t count, bool world_space);
+// Where wo lies: above the surface, below it, or in turn.
+enum class Side { front, back, both };
+
+struct AlphaRange {
+    double low = 1e-3, high = 1;
+};
+
+// wo uniform on the hemisphere (about n), each alpha log-uniform in its range, n uniform on the sphere, u uniform, eta in
+// [1.05, 2.5]; for wo above the surface wm a visible normal of the lobe, wi the reflection of wo about it.
+std::vector<conformance::Point> points(std::size_t count, bool world_space, Side side = Side::front,
+                                       AlphaRange alpha = {});
+
+// In words, for reports.
+std::string describe_inputs(AlphaRange alpha);
 
 // The one lobe of the compute-bound measurements: cos(theta) = 0.7, alpha = (0.3, 0.2).
 conformance::Point lobe(bool world_space);

@@ -12,11 +12,14 @@ bool is_lobe(const std::string& scalar) {
     return scalar == "eta" || scalar == "cos_theta";
 }
 
-std::string compute_source(const Function& function, const std::string& callee) {
+namespace {
+
+std::string kernel_source(const std::string& name, const Function& function, const std::string& callee,
+                          std::size_t groups, bool one_lobe) {
     const std::string result = function.result + (function.with_pdf ? "_PDF" : "");
     std::string parameters, loads;
     for (const std::string& scalar : function.inputs) {
-        if (is_lobe(scalar)) {
+        if (one_lobe && is_lobe(scalar)) {
             parameters += fmt::format("const VNDF_REAL {}, ", scalar);
         } else {
             parameters += fmt::format("__global const VNDF_REAL *restrict in_{}, ", scalar);
@@ -27,13 +30,20 @@ std::string compute_source(const Function& function, const std::string& callee) 
         parameters += fmt::format("__global VNDF_REAL *restrict out_{}, ", scalar);
     parameters.resize(parameters.size() - 2);
     return fmt::format(
-        "\n#line 1 \"compute\"\n"
-        "__kernel void vndf_compute({}) {{\n"
-        "    const size_t i = (get_group_id(0) % {}) * get_local_size(0) + get_local_id(0);\n"
-        "{}    const VNDF_TYPE_{} result = {}(VNDF_CALL_{});\n"
-        "    VNDF_RESULTS_{}(VNDF_BATCH_STORE)\n"
+        "\n#line 1 \"{0}\"\n"
+        "__kernel void {0}({1}) {{\n"
+        "    const size_t i = (get_group_id(0) % {2}) * get_local_size(0) + get_local_id(0);\n"
+        "{3}    const VNDF_TYPE_{4} result = {5}(VNDF_CALL_{6});\n"
+        "    VNDF_RESULTS_{4}(VNDF_BATCH_STORE)\n"
         "}}\n",
-        parameters, compute_groups, loads, result, callee, function.arguments, result);
+        name, parameters, groups, loads, result, callee, function.arguments);
+}
+
+}  // namespace
+
+std::string cached_source(const Function& function, const std::string& callee) {
+    return kernel_source("vndf_compute", function, callee, compute_groups, true) +
+           kernel_source("vndf_cached", function, callee, cached_groups, false);
 }
 
 std::string to_string(Copy copy) {

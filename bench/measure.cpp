@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include <benchmark/benchmark.h>
@@ -23,13 +24,17 @@ double best(const std::vector<double>& values) {
 class Collector final : public benchmark::BenchmarkReporter {
   public:
     bool ReportContext(const Context& context) override {
-        context_.emplace(context);
+        if (!context_) context_.emplace(context);
         return true;
     }
     void ReportRuns(const std::vector<Run>& runs) override {
         runs_.insert(runs_.end(), runs.begin(), runs.end());
     }
 
+    void append(const Collector& other) {
+        if (!context_) context_.emplace(*other.context_);
+        runs_.insert(runs_.end(), other.runs_.begin(), other.runs_.end());
+    }
     std::vector<Run>& runs() { return runs_; }
     std::string json() {
         std::ostringstream text;
@@ -89,11 +94,16 @@ void set_name(Run& run) {
     run.run_name.time_type.clear();
 }
 
-// Google Benchmark's JSON with one more member, which its tools pass over.
-std::string with_lobes(const std::string& json, const std::vector<LobeNoise>& lobes) {
+// Google Benchmark's JSON with more members, which its tools pass over. `price` is null for what has no lean form.
+std::string with_surroundings(const std::string& json, const Surroundings& surroundings,
+                              const std::map<std::string, double>& spread) {
     auto data = nlohmann::ordered_json::parse(json);
+    for (auto& entry : data["benchmarks"])
+        if (entry["run_name"].get<std::string>().starts_with("vndf_") && !entry.contains("price"))
+            entry["price"] = nullptr;
+    data["spread"] = spread;
     data["lobes"] = nlohmann::ordered_json::array();
-    for (const LobeNoise& l : lobes)
+    for (const LobeNoise& l : surroundings.lobes)
         data["lobes"].push_back({{"sampler", l.sampler},
                                  {"alpha_x", l.alpha_x},
                                  {"alpha_y", l.alpha_y},
@@ -105,44 +115,91 @@ std::string with_lobes(const std::string& json, const std::vector<LobeNoise>& lo
                                  {"smooth_variance", l.smooth_variance},
                                  {"sobol_rmse", l.sobol_rmse},
                                  {"smooth_sobol_rmse", l.smooth_sobol_rmse}});
+    data["builds"] = nlohmann::ordered_json::array();
+    for (const BuildTime& b : surroundings.builds)
+        data["builds"].push_back({{"program", b.program},
+                                  {"cold_s", b.cold_s},
+                                  {"warm_s", b.warm_s},
+                                  {"source_bytes", b.source_bytes},
+                                  {"binary_bytes", b.binary_bytes}});
     return data.dump(1) + "\n";
+}
+
+std::string mode_of(const std::string& entry) {
+    return entry.substr(entry.rfind('/') + 1);
+}
+
+// How far the ratios of the pairs A/A, .../strict_again/... over .../strict/..., are from 1.
+std::map<std::string, double> spread_of(const std::map<std::string, double>& best_ns) {
+    std::map<std::string, double> spread;
+    for (const auto& [name, ns] : best_ns) {
+        const std::size_t at = name.find("_again");
+        if (at == name.npos) continue;
+        const auto first = best_ns.find(name.substr(0, at) + name.substr(name.find('/', at)));
+        if (first == best_ns.end()) continue;
+        double& largest = spread[mode_of(name)];
+        largest = std::max(largest, std::max(ns, first->second) / std::min(ns, first->second) - 1);
+    }
+    return spread;
 }
 
 }  // namespace
 
-Measurement measure(const std::vector<Entry>& entries, int repetitions,
-                    const std::vector<std::pair<std::string, std::string>>& context,
-                    const std::vector<LobeNoise>& lobes, const std::function<void(double done)>& progress) {
-    // The filter and the list, lest variables of the environment leave entries out.
-    std::vector<std::string> arguments = {"clvndf", "--benchmark_enable_random_interleaving=true",
-                                          "--benchmark_filter=all", "--benchmark_list_tests=false"};
+class Measurer::State {
+  public:
+    Collector collector;
+    std::vector<Entry> entries;  // without what launches them
+    std::set<std::string> names;
+};
+
+Measurer::Measurer(int repetitions) : repetitions_(repetitions), state_(std::make_unique<State>()) {
+    // The filter and the list, lest variables of the environment leave entries out. Google Benchmark keeps a pointer to the
+    // first.
+    static std::vector<std::string> arguments;
+    arguments = {"clvndf", "--benchmark_enable_random_interleaving=true", "--benchmark_filter=all",
+                 "--benchmark_list_tests=false"};
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     int argc = static_cast<int>(argv.size());
     benchmark::Initialize(&argc, argv.data());
-    for (const auto& [key, value] : context) benchmark::AddCustomContext(key, value);
+}
 
+Measurer::~Measurer() = default;
+
+void Measurer::run(const std::vector<Entry>& entries, const std::function<void(double done)>& progress) {
     double done = 0;
-    const double total = static_cast<double>(entries.size()) * repetitions;
+    const double total = static_cast<double>(entries.size()) * repetitions_;
+    benchmark::ClearRegisteredBenchmarks();
     for (const Entry& entry : entries)
-        register_entry(entry, repetitions, [&] { progress(std::min(1.0, ++done / total)); });
-    Collector collector;
-    benchmark::RunSpecifiedBenchmarks(&collector);
+        register_entry(entry, repetitions_, [&] { progress(std::min(1.0, ++done / total)); });
+    Collector batch;
+    benchmark::RunSpecifiedBenchmarks(&batch);
+    benchmark::ClearRegisteredBenchmarks();
 
-    std::map<std::string, const Entry*> by_name;
-    for (const Entry& entry : entries) by_name[entry.name] = &entry;
+    std::erase_if(batch.runs(), [&](const Run& run) { return state_->names.contains(entry_name(run)); });
+    state_->collector.append(batch);
+    for (const Entry& entry : entries) {
+        if (!state_->names.insert(entry.name).second) continue;
+        Entry kept = entry;
+        kept.launch = nullptr, kept.warm = nullptr;
+        state_->entries.push_back(std::move(kept));
+    }
+}
+
+Measurement Measurer::finish(const Surroundings& surroundings) {
+    for (const auto& [key, value] : surroundings.context) benchmark::AddCustomContext(key, value);
     std::map<std::string, double> best_ns, median_ns;
-    for (const Run& run : collector.runs()) {
+    for (const Run& run : state_->collector.runs()) {
         const double ns = run.counters.at("ns_per_sample").value;
         if (run.aggregate_name == "best") best_ns[entry_name(run)] = ns;
         if (run.aggregate_name == "median") median_ns[entry_name(run)] = ns;
     }
-    const auto ratio = [&](const std::string& of, const std::string& to) -> std::optional<double> {
-        if (of.empty() || !best_ns.contains(of)) return std::nullopt;
-        return best_ns[of] / best_ns[to];
-    };
     Measurement measurement;
-    for (const Entry& entry : entries) {
+    measurement.spread = spread_of(best_ns);
+    std::map<std::string, const Entry*> by_name;
+    std::map<std::string, const Result*> results;
+    measurement.results.reserve(state_->entries.size());
+    for (const Entry& entry : state_->entries) {
         Result& result = measurement.results.emplace_back();
         result.name = entry.name;
         result.best_ns = best_ns[entry.name];
@@ -150,23 +207,28 @@ Measurement measure(const std::vector<Entry>& entries, int repetitions,
         result.counters = entry.figures;
         result.counters["ns_per_sample"] = result.best_ns;
         result.counters["ns_per_useful_sample"] = result.best_ns / entry.useful;
-        if (const auto fraction = ratio(entry.copy, entry.name))
-            result.counters["fraction_of_copy"] = *fraction;
-        if (const auto peak = ratio(entry.arithmetic, entry.name))
+        // The time of another entry over this one's.
+        const auto over = [&](const std::string& other) -> std::optional<double> {
+            if (!best_ns.contains(other)) return std::nullopt;
+            return best_ns[other] / result.best_ns;
+        };
+        if (const auto fraction = over(entry.copy)) result.counters["fraction_of_copy"] = *fraction;
+        if (const auto peak = over(entry.arithmetic))
             result.counters["fraction_of_arithmetic"] = *peak * entry.figures.at("operations");
-        if (const auto speedup = ratio(entry.published, entry.name))
-            result.counters["speedup_over_published"] = *speedup;
+        if (const auto speedup = over(entry.published)) result.counters["speedup_over_published"] = *speedup;
+        if (const auto lean = over(entry.lean)) result.counters["price"] = 1 / *lean;
+        by_name[entry.name] = &entry;
+        results[entry.name] = &result;
     }
     // The figures that do not vary are what they are in every aggregate, whose own name would make them its own.
-    for (Run& run : collector.runs()) {
-        const Entry& entry = *by_name.at(entry_name(run));
-        const auto& result = measurement.results[static_cast<std::size_t>(&entry - entries.data())];
+    for (Run& run : state_->collector.runs()) {
+        const std::string name = entry_name(run);
         set_name(run);
-        for (const auto& [name, value] : result.counters)
-            if (!name.starts_with("ns_per")) run.counters[name] = value;
-        run.counters["samples"] = entry.samples;
+        for (const auto& [counter, value] : results.at(name)->counters)
+            if (!counter.starts_with("ns_per")) run.counters[counter] = value;
+        run.counters["samples"] = by_name.at(name)->samples;
     }
-    measurement.json = with_lobes(collector.json(), lobes);
+    measurement.json = with_surroundings(state_->collector.json(), surroundings, measurement.spread);
     return measurement;
 }
 

@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "builds.h"
 #include "session.h"
 #include "variance.h"
 
@@ -20,16 +22,39 @@ struct Result {
     std::map<std::string, double> counters;
 };
 
-struct Measurement {
-    std::vector<Result> results;  // in the order of the entries
-    std::string json;             // Google Benchmark's form
+// What goes to the JSON beside the entries, as it is.
+struct Surroundings {
+    std::vector<std::pair<std::string, std::string>> context;
+    std::vector<LobeNoise> lobes;
+    std::vector<BuildTime> builds;
 };
 
-// `context` and `lobes` go to the JSON as they are. Entries whose names stand in another's `copy` or `published` are measured
-// in the same run, and every entry carries the ratio to them.
-Measurement measure(const std::vector<Entry>& entries, int repetitions,
-                    const std::vector<std::pair<std::string, std::string>>& context,
-                    const std::vector<LobeNoise>& lobes, const std::function<void(double done)>& progress);
+struct Measurement {
+    std::vector<Result> results;  // in the order of the entries
+    // By mode: the largest deviation from 1 of the ratio of two identical kernels, .02 for 2 %. No ratio within is a
+    // difference. Empty if no kernel was measured twice.
+    std::map<std::string, double> spread;
+    std::string json;  // Google Benchmark's form
+};
+
+// Measures batches of entries, each interleaved in itself, and puts them together. Batches keep memory bounded; ratios between
+// them hold as well as those between two builds of one kernel, of which every batch is to have one: see Measurement::spread.
+class Measurer {
+  public:
+    explicit Measurer(int repetitions);
+    ~Measurer();
+
+    // Entries whose names were measured already, copies for instance, are measured again but not kept.
+    void run(const std::vector<Entry>& entries, const std::function<void(double done)>& progress);
+
+    // Entries whose names stand in another's `copy`, `published` or `lean` give it a ratio to them.
+    Measurement finish(const Surroundings& surroundings);
+
+  private:
+    class State;
+    int repetitions_;
+    std::unique_ptr<State> state_;
+};
 
 // Results by name out of such a JSON text. Throws InputError, naming `path`.
 std::vector<Result> read_results(const std::string& json, const std::string& path);

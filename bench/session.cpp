@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
-#include "conformance/judge/known_bias.h"
-#include "conformance/judge/pointwise.h"
+#include "accuracy.h"
+#include "conformance/judge/errors.h"
 #include "cpp_build.h"
-#include "inputs.h"
+#include "error.h"
 #include "sources.h"
 
 namespace vndf::bench {
@@ -20,21 +19,17 @@ namespace {
 using runtime::DeviceEvaluator, runtime::Math, runtime::Real;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t column_bytes = std::size_t{1} << 24;  // far beyond every cache, with 10 columns
+constexpr std::size_t column_bytes = std::size_t{1} << 23;  // 80 MB with 10 columns: beyond the caches
 constexpr std::size_t distinct_rows = std::size_t{1} << 16;
-constexpr std::ptrdiff_t judged_rows = 1 << 14;  // the reference takes microseconds for each
-constexpr std::size_t warm_part = 16;            // of the data, to load code, not the data into a cache
-constexpr double slow_launch_s = 0.06;           // longer launches are cut to a quarter of the samples
-constexpr double compute_launch_s = 0.004;       // long beside the cost of a launch
+constexpr std::size_t warm_part = 16;       // of the data, to load code, not the data into a cache
+constexpr double slow_launch_s = 0.03;      // longer launches are cut to a quarter of the samples
+constexpr double compute_launch_s = 0.004;  // long beside the cost of a launch
 constexpr std::size_t most_items = std::size_t{1} << 28;
 constexpr std::size_t cpp_rows = 512;  // of the C++ build when compute-bound: they fit the first cache
+constexpr std::size_t cpp_columns = column_bytes / sizeof(float) / 4;  // streaming
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-bool in_world_space(const Function& function) {
-    return conformance::column(function, "n_x") >= 0;
 }
 
 // A program without any registered function.
@@ -55,57 +50,95 @@ std::vector<char> to_bytes(const std::vector<double>& values, Real real) {
     return bytes;
 }
 
+runtime::ProgramOptions program_options(const Function& function, const Rung& rung) {
+    runtime::ProgramOptions options;
+    options.functions = {function.name};
+    options.root = rung.root;
+    options.more_files = sources();
+    options.substitutions = rung.substitutions;
+    options.mutant = rung.substitutions.empty() ? 0 : 1;
+    options.build_options = rung.flags;
+    options.correct_divide_sqrt = rung.flags.empty();
+    if (rung.layout.empty()) options.more_source = cached_source(function, rung.callee);
+    if (rung.layout == "readme") options.root = "kernels/metal.cl";
+    if (rung.root == "bench/layouts.cl")
+        options.build_options +=
+            fmt::format(" -DBENCH_CALLEE={} -DBENCH_GROUPS={}", rung.callee, cached_groups);
+    return options;
+}
+
+std::string entry_name(const Function& function, const std::string& key, Mode mode) {
+    return fmt::format("{}/{}/{}", function.name, key, to_string(mode));
+}
+
 }  // namespace
 
-bool is_published(const Function& function) {
-    static const std::set<std::string> listings = {
-        "vndf_ggx_sample_wm_heitz_deon2014",     "vndf_ggx_sample_wm_heitz2017",
-        "vndf_ggx_sample_wm_heitz2018",          "vndf_ggx_sample_wm_dupuy2023",
-        "vndf_ggx_sample_wm_benyoub2024",        "vndf_ggx_sample_wi_eto2023",
-        "vndf_beckmann_sample_wm_heitz_deon2014"};
-    return listings.contains(function.name);
-}
+Session::Session(const runtime::Device& device, const SessionOptions& options)
+    : options_(options), arithmetic_(device, Math::strict, Real::f32, own_program(arithmetic_source())) {}
 
-bool has_steps(const Function& function) {
-    return function.name == "vndf_beckmann_sample_wm_jakob2014";
-}
+// --- Arrays ---
 
-bool has_basis(const Function& function) {
-    return function.name == "vndf_ggx_sample_wm_benyoub2024";
-}
-
-Session::Session(const runtime::Device& device)
-    : arithmetic_(device, Math::strict, Real::f32, own_program(arithmetic_source())) {}
-
-const conformance::Table& Session::table(const Function& function, Real real) {
-    auto [found, missing] = tables_.try_emplace(function.name + std::string(to_string(real)));
-    if (missing) {
-        found->second =
-            conformance::tabulate(function, points(distinct_rows, in_world_space(function)), real);
-    }
+const conformance::Table& Session::table(const Function& function, Real real, Side side) {
+    if (!has_back(function)) side = Side::front;
+    const std::string key =
+        fmt::format("{} {} {}", function.name, to_string(real), side == Side::both ? "both" : "front");
+    auto [found, missing] = tables_.try_emplace(key);
+    if (missing)
+        found->second = conformance::tabulate(
+            function, points(distinct_rows, in_world_space(function), side, options_.alpha), real);
     return found->second;
 }
 
-// The column's distinct rows, repeated to its full length.
+// `bytes`, repeated to the size.
+cl::Buffer& Session::repeated(const std::string& key, const std::vector<char>& bytes, std::size_t size) {
+    const auto found = inputs_.find(key);
+    if (found != inputs_.end()) return found->second;
+    const cl::CommandQueue& queue = arithmetic_.queue();
+    const cl::Buffer buffer = arithmetic_.buffer(size);
+    queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, std::min(size, bytes.size()), bytes.data());
+    for (std::size_t filled = bytes.size(); filled < size; filled *= 2)
+        queue.enqueueCopyBuffer(buffer, buffer, 0, filled, std::min(filled, size - filled));
+    queue.finish();
+    return inputs_[key] = buffer;
+}
+
 cl::Buffer& Session::input(const Function& function, std::size_t index, Real real) {
     const std::string key =
         fmt::format("{} {} {}", function.inputs[index], in_world_space(function), to_string(real));
     const auto found = inputs_.find(key);
     if (found != inputs_.end()) return found->second;
-    const cl::CommandQueue& queue = arithmetic_.queue();
-    const cl::Buffer buffer = arithmetic_.buffer(column_bytes);
-    const std::vector<char> bytes = to_bytes(table(function, real).columns[index], real);
-    queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes.size(), bytes.data());
-    for (std::size_t filled = bytes.size(); filled < column_bytes; filled *= 2)
-        queue.enqueueCopyBuffer(buffer, buffer, 0, filled, std::min(filled, column_bytes - filled));
-    queue.finish();
-    return inputs_[key] = buffer;
+    return repeated(key, to_bytes(table(function, real).columns[index], real), column_bytes);
+}
+
+cl::Buffer& Session::cached_input(const Function& function, std::size_t index, Real real, Side side) {
+    if (!has_back(function)) side = Side::front;
+    const std::string key =
+        fmt::format("{} {} {} cached {}", function.inputs[index], in_world_space(function), to_string(real),
+                    side == Side::both ? "both" : "front");
+    const auto found = inputs_.find(key);
+    if (found != inputs_.end()) return found->second;
+    const std::vector<double>& column = table(function, real, side).columns[index];
+    const std::size_t rows = cached_groups * runtime::group_size;
+    return repeated(key, to_bytes({column.begin(), column.begin() + rows}, real), rows * size_of(real));
+}
+
+// Floats of several columns row by row, each row `width` long.
+cl::Buffer& Session::interleaved(const std::string& key, const std::vector<std::vector<double>>& columns,
+                                 std::size_t width, std::size_t bytes) {
+    std::vector<double> values(columns.front().size() * width);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        for (std::size_t i = 0; i < columns[c].size(); ++i) values[i * width + c] = columns[c][i];
+    return repeated(fmt::format("{} {} {}", key, width, bytes), to_bytes(values, Real::f32), bytes);
 }
 
 cl::Buffer& Session::output(std::size_t index) {
-    while (outputs_.size() <= index) outputs_.push_back(arithmetic_.buffer(column_bytes));
+    // Of arrays of structures one output has up to four columns.
+    while (outputs_.size() <= index)
+        outputs_.push_back(arithmetic_.buffer(column_bytes * (outputs_.empty() ? 4 : 1)));
     return outputs_[index];
 }
+
+// --- Launches ---
 
 Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
     cl::Event event;
@@ -119,32 +152,8 @@ Timing Session::launch(const cl::Kernel& kernel, std::size_t work_items) {
     return {wall_s, static_cast<double>(end - begin) * 1e-9};
 }
 
-cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator) {
-    cl::Kernel kernel = evaluator.program().kernel("vndf_batch_" + function.name);
-    cl_uint argument = 0;
-    for (std::size_t i = 0; i < function.inputs.size(); ++i)
-        kernel.setArg(argument++, input(function, i, evaluator.input_real()));
-    for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
-    kernel.setArg(argument, cl_uint{0});
-    return kernel;
-}
-
-// Builds the program until its kernel has run: some drivers compile at the first launch. Returns the seconds that the
-// same launch takes less the second time.
-double Session::build(const Function& function, Math math, Real real,
-                      const runtime::ProgramOptions& options) {
-    const std::size_t items = column_bytes / size_of(real) / 64;
-    const auto start = Clock::now();
-    evaluators_.push_back(
-        std::make_unique<DeviceEvaluator>(runtime::Program(arithmetic_, math, real, options)));
-    const cl::Kernel kernel = stream_kernel(function, *evaluators_.back());
-    launch(kernel, items);
-    return seconds_since(start) - launch(kernel, items).wall_s;
-}
-
-Entry Session::stream_entry(const Function& function, DeviceEvaluator& evaluator) {
-    std::size_t items = column_bytes / size_of(evaluator.input_real());
-    const cl::Kernel kernel = stream_kernel(function, evaluator);
+Entry Session::stream_entry(const cl::Kernel& kernel, Real real) {
+    std::size_t items = column_bytes / size_of(real);
     launch(kernel, items);
     if (launch(kernel, items).wall_s > slow_launch_s) items /= 4;
     Entry entry;
@@ -165,7 +174,20 @@ Entry Session::long_entry(const cl::Kernel& kernel, std::size_t items, std::size
     return entry;
 }
 
-Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluator) {
+// --- Kernels with their arguments ---
+
+cl::Kernel Session::stream_kernel(const Function& function, DeviceEvaluator& evaluator) {
+    cl::Kernel kernel = evaluator.program().kernel("vndf_batch_" + function.name);
+    cl_uint argument = 0;
+    for (std::size_t i = 0; i < function.inputs.size(); ++i)
+        kernel.setArg(argument++, input(function, i, evaluator.input_real()));
+    for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
+    kernel.setArg(argument, cl_uint{0});
+    return kernel;
+}
+
+cl::Kernel Session::compute_kernel(const Function& function) {
+    const DeviceEvaluator& evaluator = *evaluators_.back();
     const Real real = evaluator.input_real();
     const conformance::Point point = lobe(in_world_space(function));
     cl::Kernel kernel = evaluator.program().kernel("vndf_compute");
@@ -180,9 +202,51 @@ Entry Session::compute_entry(const Function& function, DeviceEvaluator& evaluato
             kernel.setArg(argument, value);
     }
     for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
-
-    return long_entry(kernel, compute_groups * runtime::group_size, most_items);
+    return kernel;
 }
+
+cl::Kernel Session::cached_kernel(const Function& function, Side side) {
+    const DeviceEvaluator& evaluator = *evaluators_.back();
+    cl::Kernel kernel = evaluator.program().kernel("vndf_cached");
+    cl_uint argument = 0;
+    for (std::size_t i = 0; i < function.inputs.size(); ++i)
+        kernel.setArg(argument++, cached_input(function, i, evaluator.input_real(), side));
+    for (std::size_t i = 0; i < function.outputs.size(); ++i) kernel.setArg(argument++, output(i));
+    return kernel;
+}
+
+// A sampler of (wo, alpha, u) over arrays of structures, or the README's example.
+cl::Kernel Session::layout_kernel(const Function& function, const Rung& rung, bool cached) {
+    const std::vector<std::vector<double>>& c = table(function, Real::f32, Side::front).columns;
+    const std::string kind = cached ? "cached aos " : "aos ";
+    const std::size_t rows = cached ? cached_groups * runtime::group_size : column_bytes / sizeof(float);
+    const auto array = [&](const char* name, std::size_t first, std::size_t last, std::size_t width) {
+        return interleaved(
+            kind + name,
+            {c.begin() + static_cast<std::ptrdiff_t>(first), c.begin() + static_cast<std::ptrdiff_t>(last)},
+            width, rows * width * sizeof(float));
+    };
+    const bool readme = rung.layout == "readme";
+    cl::Kernel kernel = evaluators_.back()->program().kernel(
+        readme ? "sample_metal" : rung.layout + (cached ? "_cached" : "_stream"));
+    cl_uint argument = 0;
+    if (rung.layout == "aos_struct") {
+        kernel.setArg(argument++, array("struct", 0, 7, 7));
+    } else {
+        kernel.setArg(argument++, array("wo", 0, 3, rung.layout == "aos_float4" ? 4 : 3));
+        if (!readme) kernel.setArg(argument++, array("alpha", 3, 5, 2));
+        kernel.setArg(argument++, array("u", 5, 7, 2));
+        if (readme) kernel.setArg(argument++, cl_float2{{0.3f, 0.2f}});
+    }
+    kernel.setArg(argument++, output(0));
+    if (readme)
+        for (std::size_t i = 1; i < 3; ++i) kernel.setArg(argument++, output(i));
+    if (rung.layout == "aos_stride")
+        for (const cl_uint distance : {1u, 2u}) kernel.setArg(argument++, distance);
+    return kernel;
+}
+
+// --- Entries ---
 
 const Entry* Session::find_entry(const std::string& name) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(),
@@ -245,170 +309,172 @@ std::string Session::arithmetic_entry() {
     return name;
 }
 
-// Errors on the very inputs that are timed.
-void Session::add_accuracy(Entry& entry, const Function& function, runtime::Evaluator& evaluator) {
-    const conformance::Table& inputs = table(function, evaluator.input_real());
-    conformance::Table judged;
-    for (const std::vector<double>& column : inputs.columns)
-        judged.columns.emplace_back(column.begin(), column.begin() + judged_rows);
-    const conformance::Errors errors = conformance::pointwise_errors(evaluator, function, judged);
-    entry.figures["err_p50"] = errors.percentile(50);
-    entry.figures["err_p99"] = errors.percentile(99);
-    entry.figures["err_max"] = errors.max();
-    // An approximate sampler is judged against its own map above: here its distribution against the exact one.
-    for (const conformance::Finding& finding : conformance::measure_bias(evaluator, function))
-        if (finding.check.find("CDF error") != std::string::npos)
-            entry.figures["bias"] = std::max(entry.figures["bias"], finding.figure);
-}
-
-// The part of a sampler's directions that are reflections above the surface.
-double Session::useful_part(const Function& function, runtime::Evaluator& evaluator) {
-    if (function.kind != Kind::sampler) return 1;
-    const auto results = conformance::evaluate(evaluator, function, table(function, evaluator.input_real()));
-    const std::vector<conformance::Point> all = points(distinct_rows, in_world_space(function));
-    const auto dot = [](const conformance::Direction& a, const conformance::Direction& b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    };
-    std::size_t useful = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const conformance::Direction d{results[0][i], results[1][i], results[2][i]};
-        const double cosine = dot(all[i].wo, d), height = dot(d, all[i].n);
-        useful += function.result == "WI" ? height > 0
-                                          : cosine > 0 && 2 * cosine * height > dot(all[i].wo, all[i].n);
+Entry Session::entry(const Function& function, const Rung& rung, Mode mode) {
+    const std::size_t groups = mode == Mode::compute ? compute_groups : cached_groups;
+    Entry entry;
+    if (!rung.layout.empty())
+        entry = mode == Mode::stream ? stream_entry(layout_kernel(function, rung, false), Real::f32)
+                                     : long_entry(layout_kernel(function, rung, true),
+                                                  groups * runtime::group_size, most_items);
+    else if (mode == Mode::stream)
+        entry = stream_entry(stream_kernel(function, *evaluators_.back()), rung.real);
+    else
+        entry = long_entry(mode == Mode::compute
+                               ? compute_kernel(function)
+                               : cached_kernel(function, mode == Mode::cached ? Side::both : Side::front),
+                           groups * runtime::group_size, most_items);
+    entry.name = entry_name(function, rung.key(), mode);
+    if (is_published(function)) {
+        entry.lean = entry_name(function, "lean/float", mode);
+        if (rung.real == Real::f32) entry.published = entry_name(function, "published/float", mode);
     }
-    return static_cast<double>(useful) / static_cast<double>(all.size());
+    return entry;
 }
 
-void Session::add_program(const Function& function, Math math, Real real, const Form& form) {
-    arithmetic_.guarded("measure " + function.name, [&] {
-        const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), real);
-        runtime::ProgramOptions options;
-        options.functions = {function.name};
-        options.root = form.root;
-        options.more_source = compute_source(function, form.callee);
-        options.more_files = sources();
-        options.substitutions = form.substitutions;
-        options.mutant = form.substitutions.empty() ? 0 : 1;
-        for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, real);
-        const double cold_s = build(function, math, real, options);
-        const double warm_s = build(function, math, real, options);  // from the driver's cache
-        DeviceEvaluator& evaluator = *evaluators_.back();
-        if (build_options_.empty()) build_options_ = evaluator.program().build_options();
-        Entry stream = stream_entry(function, evaluator);
-        Entry compute = compute_entry(function, evaluator);
-        if (form.same_map) add_accuracy(stream, function, evaluator);
-        stream.useful = useful_part(function, evaluator);
-        stream.figures["build_cold_s"] = cold_s;
-        stream.figures["build_warm_s"] = warm_s;
-        compute.figures = stream.figures;
-        compute.useful = stream.useful;
-        const std::string name = fmt::format("{}/{}/{}", function.name, form.policy, to_string(real));
-        stream.name = name + "/stream";
-        stream.copy = copy;
-        compute.name = name + "/compute";
-        if (form.policy == "strict" && real == Real::f32 && operations(function) > 0) {
-            stream.figures["operations"] = operations(function);
-            stream.arithmetic = arithmetic_entry();
+// Builds the program until its kernel has run: some drivers compile at the first launch. Returns the seconds that the
+// same launch takes less the second time.
+double Session::build(const Function& function, const Rung& rung, const runtime::ProgramOptions& options) {
+    const std::size_t items = column_bytes / size_of(rung.real) / 64;
+    const auto start = Clock::now();
+    evaluators_.push_back(
+        std::make_unique<DeviceEvaluator>(runtime::Program(arithmetic_, rung.math, rung.real, options)));
+    const cl::Kernel kernel = rung.layout.empty() ? stream_kernel(function, *evaluators_.back())
+                                                  : layout_kernel(function, rung, false);
+    launch(kernel, items);
+    return seconds_since(start) - launch(kernel, items).wall_s;
+}
+
+// A layout that computes something else would be worth nothing. The kernel has just run.
+void Session::require_same_results(const Function& function, const Rung& rung) {
+    const std::size_t rows = 4096, width = rung.layout == "aos_float4" ? 4 : 3;
+    conformance::Table few;
+    for (const auto& column : table(function, Real::f32).columns)
+        few.columns.emplace_back(column.begin(), column.begin() + rows);
+    const auto wanted = conformance::evaluate(*evaluators_.back(), function, few);
+    launch(layout_kernel(function, rung, false), rows);
+    std::vector<float> got(rows * width);
+    arithmetic_.queue().enqueueReadBuffer(output(0), CL_TRUE, 0, got.size() * sizeof(float), got.data());
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (got[i * width + k] != static_cast<float>(wanted[k][i]))
+                throw DeviceError(fmt::format("{} over {}: another result than over an array for each scalar",
+                                              function.name, rung.layout));
+}
+
+// What is known of a form before it is timed.
+std::map<std::string, double> Session::figures(const Function& function, const Rung& rung) {
+    if (rung.layout == "readme") return {};  // it has outputs of its own
+    const std::size_t rows = function.kind == Kind::sampler && !function.with_pdf ? options_.judged_rows
+                                                                                  : options_.judged_rows / 4;
+    return accuracy(*evaluators_.back(), function, rows, options_.alpha, rung.same_map);
+}
+
+void Session::add_device(const Function& function, const Rung& rung) {
+    const std::string copy = copy_entry(function.inputs.size(), function.outputs.size(), rung.real);
+    const runtime::ProgramOptions options = program_options(function, rung);
+    // The arrays are made before the clock starts.
+    for (std::size_t i = 0; i < function.inputs.size(); ++i) input(function, i, rung.real);
+    const double cold_s = build(function, rung, options);
+    double warm_s = 0;
+    if (options_.warm_builds) {
+        evaluators_.pop_back();
+        warm_s = build(function, rung, options);  // from the driver's cache
+    }
+    DeviceEvaluator& evaluator = *evaluators_.back();
+    if (build_options_.empty()) build_options_ = evaluator.program().build_options();
+    if (rung.root == "bench/layouts.cl") require_same_results(function, rung);
+    std::map<std::string, double> known = figures(function, rung);
+    known["build_cold_s"] = cold_s;
+    if (options_.warm_builds) known["build_warm_s"] = warm_s;
+    const double useful =
+        rung.layout == "readme" ? 1 : useful_part(evaluator, function, options_.judged_rows, options_.alpha);
+    for (const Mode mode : rung.modes) {
+        Entry added = entry(function, rung, mode);
+        added.figures = known;
+        added.useful = useful;
+        if (mode == Mode::stream) {
+            if (rung.layout.empty()) added.copy = copy;
+            if (rung.key() == "strict/float" && operations(function) > 0) {
+                added.figures["operations"] = operations(function);
+                added.arithmetic = arithmetic_entry();
+            }
         }
-        if (is_published(function) && real == Real::f32) {
-            stream.published = function.name + "/published/float/stream";
-            compute.published = function.name + "/published/float/compute";
-        }
-        entries_.push_back(std::move(stream));
-        entries_.push_back(std::move(compute));
-    });
+        entries_.push_back(std::move(added));
+    }
 }
 
-void Session::add(const Function& function, Math math, Real real) {
-    add_program(function, math, real,
-                {std::string(to_string(math)), "kernels/batch/batch.cl", function.name});
+// --- The C++ build ---
+
+// A column of the inputs, or zeros for a result; for compute-bound measurements few rows, of one lobe, for each thread.
+std::shared_ptr<std::vector<float>> Session::cpp_array(const Function& function, std::size_t scalar,
+                                                       bool compute) {
+    const bool is_input = scalar < function.inputs.size();
+    const std::string name =
+        is_input ? function.inputs[scalar] : fmt::format("out {}", scalar - function.inputs.size());
+    auto& array = cpp_arrays_[fmt::format("{} {} {}", name, is_input && in_world_space(function), compute)];
+    if (array) return array;
+    const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+    array = std::make_shared<std::vector<float>>(compute ? cpp_rows * threads : cpp_columns);
+    if (!is_input) return array;
+    const std::vector<double>& values = table(function, Real::f32).columns[scalar];
+    const double lobe_value = lobe(in_world_space(function)).scalar(name);
+    for (std::size_t row = 0; row < array->size(); ++row)
+        (*array)[row] =
+            static_cast<float>(compute && is_lobe(name) ? lobe_value : values[row % values.size()]);
+    return array;
 }
 
-void Session::add_steps(const Function& function) {
-    if (!has_steps(function)) return;
-    // Every form but the last keeps the last step, which alone is taken with the accurate residual.
-    const std::string file = "kernels/vndf/impl/beckmann_slopes.h",
-                      first = "VNDF_REAL offset = VNDF_IMPL_STEP(start, 0)",
-                      second = "offset = VNDF_IMPL_STEP(offset, 0)",
-                      last = "return VNDF_IMPL_STEP(offset, 1)", none = "VNDF_REAL offset = start";
-    const std::vector<std::vector<runtime::Substitution>> forms = {
-        {{file, first, none, 1}, {file, second, "", 1}, {file, last, "return offset", 1}},
-        {{file, first, none, 1}, {file, second, "", 1}},
-        {{file, first, none, 1}},
-        {{file, second, second, 1}},
-        {{file, second, second + "; " + second, 1}}};
-    for (std::size_t steps = 0; steps < forms.size(); ++steps)
-        add_program(function, Math::strict, Real::f32,
-                    {fmt::format("steps{}", steps), "kernels/batch/batch.cl", function.name, forms[steps]});
-}
-
-void Session::add_published(const Function& function) {
-    if (!is_published(function)) return;
-    add_program(function, Math::builtin, Real::f32,
-                {"published", "bench/published/batch.cl", "published_" + function.name.substr(5)});
-}
-
-void Session::add_basis(const Function& function) {
-    if (!has_basis(function)) return;
-    // Its azimuths are those of the basis: the distribution is the same, the map is another.
-    const std::string root = "bench/cap_with_basis.cl";
-    add_program(function, Math::strict, Real::f32, {"basis", root, "vndf_bench_cap_with_basis", {}, false});
-    add_program(function, Math::builtin, Real::f32,
-                {"published_basis", root, "published_cap_with_basis", {}, false});
-}
-
-void Session::add_cpp(const Function& function) {
+Entry Session::cpp_entry(const Function& function, bool compute) {
     const runtime::HostFunction callee = find_cpp_function(function.name.c_str());
-    const conformance::Point point = lobe(in_world_space(function));
-    for (const bool compute : {false, true}) {
-        // Compute-bound: one lobe and few rows, gone over again and again.
-        const std::size_t rows = compute ? cpp_rows : column_bytes / sizeof(float) / 4;
-        const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-        const std::size_t passes = compute ? 2048 : 1;
-        using Array = std::vector<float>;
-        const auto arrays = std::make_shared<std::vector<Array>>();
-        for (std::size_t i = 0; i < function.inputs.size() + function.outputs.size(); ++i) {
-            Array& array = arrays->emplace_back(rows * (compute ? threads : 1));
-            if (i >= function.inputs.size()) continue;
-            const std::vector<double>& values = table(function, Real::f32).columns[i];
-            const bool lobe_value = compute && is_lobe(function.inputs[i]);
-            for (std::size_t row = 0; row < array.size(); ++row)
-                array[row] = static_cast<float>(lobe_value ? point.scalar(function.inputs[i])
-                                                           : values[row % values.size()]);
-        }
-        const auto work = [=, inputs = function.inputs.size()](unsigned thread) {
-            const std::size_t part = compute ? rows : rows / threads, first = part * thread;
-            std::vector<const void*> in;
-            std::vector<void*> out;
-            for (std::size_t i = 0; i < arrays->size(); ++i)
-                i < inputs ? in.push_back((*arrays)[i].data() + first)
-                           : out.push_back((*arrays)[i].data() + first);
-            for (std::size_t pass = 0; pass < passes; ++pass) callee(in.data(), out.data(), part);
-        };
-        Entry entry;
-        entry.name = fmt::format("{}/cpp/float/{}", function.name, compute ? "compute" : "stream");
-        entry.samples = static_cast<double>(rows * (compute ? threads * passes : 1));
-        entry.label = fmt::format("{} threads", threads);
-        entry.warm = [] {};
-        entry.launch = [=] {
-            const auto start = Clock::now();
-            std::vector<std::jthread> workers;
-            for (unsigned thread = 0; thread < threads; ++thread) workers.emplace_back(work, thread);
-            workers.clear();
-            return Timing{seconds_since(start), 0};
-        };
-        if (const Entry* strict = find_entry(function.name + "/strict/float/stream")) {
+    const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t rows = compute ? cpp_rows : cpp_columns, passes = compute ? 2048 : 1;
+    std::vector<std::shared_ptr<std::vector<float>>> arrays;
+    for (std::size_t i = 0; i < function.inputs.size() + function.outputs.size(); ++i)
+        arrays.push_back(cpp_array(function, i, compute));
+    const auto work = [=, inputs = function.inputs.size()](unsigned thread) {
+        const std::size_t part = compute ? rows : rows / threads, first = part * thread;
+        std::vector<const void*> in;
+        std::vector<void*> out;
+        for (std::size_t i = 0; i < arrays.size(); ++i)
+            i < inputs ? in.push_back(arrays[i]->data() + first) : out.push_back(arrays[i]->data() + first);
+        for (std::size_t pass = 0; pass < passes; ++pass) callee(in.data(), out.data(), part);
+    };
+    Entry entry;
+    entry.samples = static_cast<double>(rows * (compute ? threads * passes : 1));
+    entry.label = fmt::format("{} threads", threads);
+    entry.warm = [] {};
+    entry.launch = [=] {
+        const auto start = Clock::now();
+        std::vector<std::jthread> workers;
+        for (unsigned thread = 0; thread < threads; ++thread) workers.emplace_back(work, thread);
+        workers.clear();
+        return Timing{seconds_since(start), 0};
+    };
+    return entry;
+}
+
+void Session::add_cpp(const Function& function, const Rung& rung) {
+    for (const Mode mode : rung.modes) {
+        Entry entry = cpp_entry(function, mode == Mode::compute);
+        entry.name = entry_name(function, rung.key(), mode);
+        if (const Entry* strict = find_entry(entry_name(function, "strict/float", Mode::stream))) {
             entry.useful = strict->useful;
             entry.figures = strict->figures;  // the same bits
-            entry.figures.erase("build_cold_s");
-            entry.figures.erase("build_warm_s");
-            if (!compute) entry.copy = strict->copy;
+            for (const char* other : {"build_cold_s", "build_warm_s", "operations"})
+                entry.figures.erase(other);
+            if (mode == Mode::stream) entry.copy = strict->copy;
         }
-        if (is_published(function))
-            entry.published =
-                fmt::format("{}/published/float/{}", function.name, compute ? "compute" : "stream");
+        if (is_published(function)) {
+            entry.published = entry_name(function, "published/float", mode);
+            entry.lean = entry_name(function, "lean/float", mode);
+        }
         entries_.push_back(std::move(entry));
     }
+}
+
+void Session::add(const Function& function, const Rung& rung) {
+    if (!rung.on_device) return add_cpp(function, rung);
+    arithmetic_.guarded("measure " + function.name, [&] { add_device(function, rung); });
 }
 
 }  // namespace vndf::bench

@@ -11,12 +11,12 @@ struct lean_view {
 };
 static inline struct lean_view lean_view_of(float3 wo, float2 alpha) {
     struct lean_view v;
-    float x = alpha.x * wo.x, y = alpha.y * wo.y, l2 = fma(x, x, y * y);
-    float r = 1.0f / sqrt(fma(wo.z, wo.z, l2)), rcp = 1.0f / sqrt(l2);
+    float x = alpha.x * wo.x, y = alpha.y * wo.y, l = sqrt(fma(x, x, y * y));
+    float r = 1.0f / sqrt(fma(wo.z, wo.z, l * l)), rcp = l > 0.0f ? 1.0f / l : 0.0f;
     v.c = wo.z * r;
-    v.s = l2 > 0.0f ? l2 * rcp * r : 0.0f;
-    v.ex = l2 > 0.0f ? x * rcp : 1.0f;
-    v.ey = l2 > 0.0f ? y * rcp : 0.0f;
+    v.s = l * r;
+    v.ex = l > 0.0f ? x * rcp : 1.0f;
+    v.ey = y * rcp;
     return v;
 }
 
@@ -36,9 +36,10 @@ static inline float3 lean_beckmann_sample_wm_heitz_deon2014(float3 wo, float2 al
     int tail = u.x < cap;
     float t = u.x / cap, w1 = v.s * edge, p = w1 / fma(v.c, 0.5f - 0.5f * erf_a, w1);
     int beyond = tail && t < p;
-    float rest = (t - p) / (1.0f - p), centre = (u.x - cap) / (1.0f - cap);
+    // The rest of its section, or of the centre: one quotient for both.
+    float part = (tail ? t - p : u.x - cap) / (1.0f - (tail ? p : cap));
     float x_log = -sqrt(-vndf_impl_log((beyond ? t / p : 0.5f) * exp_a2));
-    float x_erf = lean_erfinv(tail ? rest - 1.0f - rest * erf_a : (2.0f * centre - 1.0f) * erf_a);
+    float x_erf = lean_erfinv(tail ? part - 1.0f - part * erf_a : (2.0f * part - 1.0f) * erf_a);
     float keep = fma(-x_erf, v.s, v.c) / (2.0f * v.c);
     int mirror = !tail && u.y > keep;
     float slope_x = beyond ? x_log : mirror ? -x_erf : x_erf;

@@ -1,6 +1,7 @@
 // clvndf bench
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -14,8 +15,12 @@
 
 #include <fmt/format.h>
 
+#include "bench/accuracy.h"
+#include "bench/advice.h"
 #include "bench/measure.h"
 #include "bench/session.h"
+#include "bench/sources.h"
+#include "cli/bench_table.h"
 #include "cli/commands.h"
 #include "cli/leftovers.h"
 #include "cli/options.h"
@@ -24,16 +29,18 @@
 #include "conformance/runs/check.h"
 #include "cli/streams.h"
 #include "error.h"
-#include "bench/sources.h"
 
 namespace vndf::cli {
 namespace {
 
-using runtime::Math, runtime::Real;
+using runtime::Real;
 
 struct Bench {
     std::string device, only, json, report, compare;
-    int repetitions = 15;
+    int repetitions = 0;  // 0: what suits the run
+    bool quick = false, advise = false, front = false;
+    double error = 0;
+    bench::AlphaRange alpha;
 };
 
 // Empty compiler caches for the drivers that have one on disk, so that the first build of a program is a cold one.
@@ -130,50 +137,95 @@ Selection parse_only(const std::string& only) {
     return {selected_by(only.substr(0, slash)), forms};
 }
 
-// One way to compute a function, with what adds its entries to the session.
+// One form of a function that is to be measured.
 struct Form {
-    std::string name;  // POLICY/REAL
-    std::function<void()> add;
+    const Function* function;
+    bench::Rung rung;
 };
 
-std::vector<Form> forms_of(bench::Session& session, const runtime::Device& device, const Function& function) {
-    std::vector<Form> forms;
-    for (const Real real : {Real::f32, Real::f64}) {
-        if (real == Real::f64 && !device.fp64) continue;
-        for (const Math math : {Math::strict, Math::builtin, Math::native}) {
-            if (real == Real::f64 && math == Math::native) continue;  // native means float
-            forms.push_back({fmt::format("{}/{}", to_string(math), to_string(real)),
-                             [&session, &function, math, real] { session.add(function, math, real); }});
-        }
+// The modes of a rung that a run is about.
+std::vector<bench::Mode> wanted_modes(const Bench& options, const bench::Rung& rung) {
+    std::vector<bench::Mode> modes;
+    for (const bench::Mode mode : rung.modes) {
+        const bool cached = mode == bench::Mode::cached || mode == bench::Mode::cached_front;
+        if (options.advise ? cached : !options.quick || cached || mode == bench::Mode::stream)
+            modes.push_back(mode);
     }
-    if (bench::has_steps(function)) forms.push_back({"steps/float", [&] { session.add_steps(function); }});
-    if (bench::is_published(function))
-        forms.push_back({"published/float", [&] { session.add_published(function); }});
-    if (bench::has_basis(function)) forms.push_back({"basis/float", [&] { session.add_basis(function); }});
-    forms.push_back({"cpp/float", [&] { session.add_cpp(function); }});
-    return forms;
+    return modes;
 }
 
-// What is to be measured. The published form, with which others are compared, is always there.
-std::vector<Form> selected_forms(bench::Session& session, const runtime::Device& device,
-                                 const Selection& selection, const std::string& only) {
+bool is_wanted(const Bench& options, const Function& function, const bench::Rung& rung) {
+    static const std::set<std::string> advised = {"strict", "strict_again", "builtin",  "native",
+                                                  "lean",   "factored",     "published"};
+    const bool sampler = function.kind == Kind::sampler && !function.with_pdf;
+    if (options.advise)
+        return sampler && function.arguments == "WO_ALPHA_U" && rung.real == Real::f32 &&
+               advised.contains(rung.name);
+    // What was asked for by name is measured, quick or not.
+    return !options.quick || (bench::is_quick(rung) && (sampler || !options.only.empty()));
+}
+
+// What is to be measured. What others are compared with is always there.
+std::vector<Form> selected_forms(const runtime::Device& device, const Selection& selection,
+                                 const Bench& options) {
     std::vector<Form> selected;
     std::set<std::string> all;
     for (const Function* function : selection.functions) {
-        const std::vector<Form> forms = forms_of(session, device, *function);
-        const auto wanted = [&](const Form& form) {
-            return form.name.find(selection.forms) != std::string::npos;
+        std::vector<Form> forms;
+        for (bench::Rung rung : bench::rungs(*function, device)) {
+            if (!is_wanted(options, *function, rung)) continue;
+            rung.modes = wanted_modes(options, rung);
+            if (!rung.modes.empty()) forms.push_back({function, std::move(rung)});
+        }
+        const auto asked_for = [&](const Form& form) {
+            return form.rung.key().find(selection.forms) != std::string::npos;
         };
-        for (const Form& form : forms) all.insert(form.name);
-        if (std::none_of(forms.begin(), forms.end(), wanted)) continue;
+        for (const Form& form : forms) all.insert(form.rung.key());
+        if (std::none_of(forms.begin(), forms.end(), asked_for)) continue;
         for (const Form& form : forms)
-            if (wanted(form) || form.name == "published/float")
-                selected.push_back({function->name + " " + form.name, form.add});
+            if (asked_for(form) || form.rung.name == "published" || form.rung.name == "lean")
+                selected.push_back(form);
     }
     if (selected.empty())
-        throw InputError(fmt::format("--only '{}': '{}' is part of none of {}", only, selection.forms,
-                                     fmt::join(all, ", ")));
+        throw InputError(all.empty() ? fmt::format("--only '{}': nothing that is measured here", options.only)
+                                     : fmt::format("--only '{}': '{}' is part of none of {}", options.only,
+                                                   selection.forms, fmt::join(all, ", ")));
     return selected;
+}
+
+// What is measured together. Each batch after the first has the same kernel once more, for the noise of ratios between them.
+std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
+    constexpr std::size_t most = 100;  // programs; a driver may keep some megabytes of each
+    std::stable_sort(forms.begin(), forms.end(), [](const Form& a, const Form& b) {
+        return bench::batch_of(a.rung) < bench::batch_of(b.rung);
+    });
+    const auto strict = std::find_if(forms.begin(), forms.end(),
+                                     [](const Form& form) { return form.rung.key() == "strict/float"; });
+    std::vector<std::vector<Form>> batches(1);
+    for (const Form& form : forms) {
+        const bool other = !batches.back().empty() &&
+                           bench::batch_of(form.rung) != bench::batch_of(batches.back().back().rung);
+        if (batches.back().size() >= most || (other && forms.size() > most)) {
+            batches.emplace_back();
+            if (strict != forms.end())
+                batches.back().push_back({strict->function, bench::again(*strict->function, batches.size())});
+        }
+        batches.back().push_back(form);
+    }
+    return batches;
+}
+
+// "0.01:0.5"
+bench::AlphaRange parse_alpha(const std::string& text) {
+    bench::AlphaRange range;
+    const char *const first = text.data(), *const last = first + text.size();
+    const auto low = std::from_chars(first, last, range.low);
+    const bool colon = low.ec == std::errc() && low.ptr != last && *low.ptr == ':';
+    const auto high = std::from_chars(colon ? low.ptr + 1 : last, last, range.high);
+    if (!colon || high.ec != std::errc() || high.ptr != last || !(range.low >= 1e-8) ||
+        !(range.low <= range.high) || !(range.high <= 1e3))
+        throw InputError(fmt::format("--alpha: '{}' is no range LO:HI with 1e-8 <= LO <= HI <= 1000", text));
+    return range;
 }
 
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
@@ -193,40 +245,12 @@ std::vector<std::pair<std::string, std::string>> context(const runtime::Device& 
             {"clock_mhz", std::to_string(d.clock_mhz)},
             {"memory_bytes", std::to_string(d.memory_bytes)},
             {"repetitions", std::to_string(options.repetitions)},
+            {"inputs", bench::describe_inputs(options.alpha)},
             {"clvndf_version", CLVNDF_VERSION}};
 }
 
-std::string cell(const std::map<std::string, double>& counters, const std::string& name, const char* form) {
-    const auto found = counters.find(name);
-    return found == counters.end() ? "" : fmt::format(fmt::runtime(form), found->second);
-}
-
-void print_table(const std::vector<bench::Result>& results, const std::vector<bench::Result>& baseline) {
-    std::size_t width = 5;
-    for (const bench::Result& r : results) width = std::max(width, r.name.size());
-    std::map<std::string, double> before;
-    for (const bench::Result& r : baseline) before[r.name] = r.best_ns;
-    put("{:{}} {:>9} {:>9} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}{}\n", "entry", width, "best ns", "median",
-        "useful", "of copy", "published", "err p50", "err p99", "err max",
-        before.empty() ? "" : "  baseline");
-    for (const bench::Result& r : results) {
-        put("{:{}} {:9.3f} {:9.3f} {:>9} {:>7} {:>9} {:>8} {:>8} {:>8}", r.name, width, r.best_ns,
-            r.median_ns, cell(r.counters, "ns_per_useful_sample", "{:.3f}"),
-            cell(r.counters, "fraction_of_copy", "{:.2f}"),
-            cell(r.counters, "speedup_over_published", "{:.1f} x"), cell(r.counters, "err_p50", "{:.2g}"),
-            cell(r.counters, "err_p99", "{:.2g}"), cell(r.counters, "err_max", "{:.2g}"));
-        if (before.contains(r.name)) put("  {:.2f} x", r.best_ns / before[r.name]);
-        put("\n");
-    }
-    put("Nanoseconds a sample, wall clock, best and median of the repetitions, all entries interleaved. of "
-        "copy: time of "
-        "the fastest plain copy of as many bytes over this time; published: time of the published listing "
-        "ported line by "
-        "line over this time; err: in 2^-24 (double: 2^-53) times 1 + condition number.\n");
-    if (!before.empty()) put("baseline: this time over the baseline's.\n");
-}
-
-void run_bench(const Bench& options, Common& common) {
+void run_bench(Bench options, Common& common) {
+    if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
     const Selection selection = parse_only(options.only);
     std::vector<NamedFile> outputs = {{"--json", options.json}};
     if (!options.report.empty())
@@ -247,21 +271,40 @@ void run_bench(const Bench& options, Common& common) {
     target.device = options.device;
     const runtime::Device device = target.choose(common);
     const Progress progress(common.quiet);
-    bench::Session session(device);
-    const std::vector<Form> forms = selected_forms(session, device, selection, options.only);
-    for (std::size_t i = 0; i < forms.size(); ++i) {
-        progress("building " + forms[i].name, static_cast<double>(i) / static_cast<double>(forms.size()));
-        forms[i].add();
+    const bool whole = !options.quick && !options.advise;
+    bench::SessionOptions session_options;
+    session_options.alpha = options.alpha;
+    session_options.warm_builds = whole;
+    if (!whole) session_options.judged_rows /= 4;
+    const std::vector<std::vector<Form>> batches = in_batches(selected_forms(device, selection, options));
+    bench::Measurer measurer(options.repetitions);
+    bench::Surroundings surroundings;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        const std::string part = batches.size() == 1 ? "" : fmt::format("{}/{}: ", i + 1, batches.size());
+        bench::Session session(device, session_options);
+        std::size_t built = 0;
+        for (const auto& [function, rung] : batches[i]) {
+            progress(fmt::format("{}building {} {}", part, function->name, rung.key()),
+                     static_cast<double>(built++) / static_cast<double>(batches[i].size()));
+            session.add(*function, rung);
+        }
+        measurer.run(session.entries(), [&](double done) { progress(part + "measuring", done); });
+        if (i == 0) surroundings.context = context(device, session, options);
+        // Only the JSON holds the noise of lobes and the times of builds, which take seconds.
+        if (i > 0 || !(json || report)) continue;
+        progress("noise and builds", 0);
+        surroundings.lobes = bench::lobe_noise();
+        surroundings.builds = bench::build_times(session.program());
     }
-    // Only the JSON holds the noise, which takes seconds.
-    const bool written = json || report;
-    const bench::Measurement measurement =
-        bench::measure(session.entries(), options.repetitions, context(device, session, options),
-                       written ? bench::lobe_noise() : std::vector<bench::LobeNoise>(),
-                       [&](double done) { progress("measuring", done); });
+    const bench::Measurement measurement = measurer.finish(surroundings);
     progress.clear();
     if (json) json->write(measurement.json), json->commit();
-    if (table) print_table(measurement.results, baseline);
+    const bench::Demand demand{options.error, options.front ? Domain::upper : Domain::sphere};
+    if (table && options.advise)
+        print_advice(bench::advise(measurement.results, demand), demand, measurement.spread);
+    if (table && !options.advise) print_measurement(measurement);
+    if (table && !baseline.empty())
+        print_comparison(measurement.results, baseline, measurement.spread, options.compare);
     if (report) report->write(measurement.json);
 }
 
@@ -276,9 +319,28 @@ void add_bench(CLI::App& app, Common& common) {
     command->add_option(
         "--only", options->only,
         "only functions whose name contains this, or matches it with * and ?; after a slash, only "
-        "policies\nand types that contain what follows: dupuy2023/strict/float");
+        "forms\nand types that contain what follows: dupuy2023/strict/float");
     add_number(*command, "--repetitions", options->repetitions, 3, 1000, "how often each entry is measured")
-        ->default_str("15");
+        ->default_str("15, quick 9");
+    CLI::Option* quick = command->add_flag("--quick", options->quick,
+                                           "a minute: samplers in strict float beside their lean forms");
+    CLI::Option* advise =
+        command->add_flag("--advise", options->advise, "name the cheapest sampler and form within --error");
+    CLI::Option* error = add_number(*command, "--error", options->error, 0.1, 1e9,
+                                    "largest error allowed: an angle in units of 2^-24");
+    advise->needs(error)->excludes(quick);
+    error->needs(advise);
+    command
+        ->add_option_function<std::string>(
+            "--domain", [options](const std::string& domain) { options->front = domain == "front"; },
+            "where wo lies: above the surface, or anywhere (default)")
+        ->check(CLI::IsMember({"front", "sphere"}))
+        ->needs(advise);
+    command
+        ->add_option_function<std::string>(
+            "--alpha", [options](const std::string& text) { options->alpha = parse_alpha(text); },
+            "range of roughness that is measured (default 0.001:1)")
+        ->type_name("LO:HI");
     command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
     command
         ->add_option("--report", options->report,

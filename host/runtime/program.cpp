@@ -6,7 +6,8 @@ namespace {
 std::string all_options(const Device& device, Math math, Real real, const ProgramOptions& options) {
     std::string text =
         fmt::format("-cl-std=CL1.2 -DVNDF_REAL={} -DVNDF_MATH={}", to_string(real), to_string(math));
-    if (device.correct_divide_sqrt) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+    if (device.correct_divide_sqrt && options.correct_divide_sqrt)
+        text += " -cl-fp32-correctly-rounded-divide-sqrt";
     if (!device.fma) text += " -DVNDF_SOFTWARE_FMA=1";
     if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
     if (!options.build_options.empty()) text += ' ' + options.build_options;
@@ -50,6 +51,7 @@ void Program::build(const ProgramOptions& options) {
     files.insert(files.end(), options.more_files.begin(), options.more_files.end());
     const std::string source =
         assemble(options.root, {options.functions, options.substitutions}, files) + options.more_source;
+    source_bytes_ = source.size();
     const auto refused = [&](cl_int error, const std::string& log) {
         return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}",
                                        options.root, device_.name, device_.platform_version,
@@ -65,6 +67,12 @@ void Program::build(const ProgramOptions& options) {
     } catch (const cl::Error& error) {
         throw refused(error.err(), fmt::format("{} failed", error.what()));
     }
+}
+
+std::size_t Program::binary_bytes() const {
+    std::size_t bytes = 0;
+    for (const std::size_t size : program_.getInfo<CL_PROGRAM_BINARY_SIZES>()) bytes += size;
+    return bytes;
 }
 
 bool Program::has_kernel(const std::string& name) const {

@@ -24,6 +24,7 @@ constexpr std::size_t whole_groups(std::size_t items) {
 
 struct ProgramOptions {
     std::string build_options;                    // appended, e.g. "-cl-fast-relaxed-math"
+    bool correct_divide_sqrt = true;              // where the device offers it
     std::string root = "kernels/batch/batch.cl";  // the source with the entry points
     std::vector<SourceFile> more_files;           // beside embedded_sources(); the root may be one of them
     std::string more_source;                      // OpenCL C after the root
@@ -48,6 +49,9 @@ class Program {
     const cl::CommandQueue& queue() const { return queue_; }
 
     cl::Kernel kernel(const std::string& name) const { return cl::Kernel(program_, name.c_str()); }
+    // Of the source as the compiler gets it, and of what the driver made of it.
+    std::size_t source_bytes() const { return source_bytes_; }
+    std::size_t binary_bytes() const;
     // Whether there is a kernel of this name.
     bool has_kernel(const std::string& name) const;
     cl::Buffer buffer(std::size_t bytes) const { return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes); }
@@ -73,6 +77,7 @@ class Program {
     Math math_;
     Real real_;
     std::string build_options_;
+    std::size_t source_bytes_ = 0;
     cl::Context context_;
     cl::CommandQueue queue_;
     cl::Program program_;

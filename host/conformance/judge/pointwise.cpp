@@ -13,7 +13,7 @@ std::vector<Finding> check_pointwise(runtime::Evaluator& evaluator, const Functi
 }
 
 Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
-    return function.kind == Kind::sampler ? sampler_errors(evaluator, function, table)
+    return function.kind == Kind::sampler ? sampler_errors(evaluator, function, table).over_condition
                                           : value_errors(evaluator, function, table);
 }
 

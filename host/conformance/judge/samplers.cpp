@@ -32,10 +32,10 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
 
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
-    Errors front, back, level, core, outside, length, below, behind, bad;
+    Errors front, back, level, core, angle, outside, length, below, behind, bad;
     void merge(const MapErrors& other) {
         front.merge(other.front), back.merge(other.back), level.merge(other.level);
-        core.merge(other.core), outside.merge(other.outside);
+        core.merge(other.core), angle.merge(other.angle), outside.merge(other.outside);
         length.merge(other.length), below.merge(other.below), behind.merge(other.behind),
             bad.merge(other.bad);
     }
@@ -87,7 +87,9 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
                 errors.outside.add(std::equal(wide, wide + 3, exact) ? 0 : 1, i);
                 continue;
             }
-            const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
+            const auto in_epsilon = static_cast<double>(angle(wide, exact)) / unit;
+            errors.angle.add(in_epsilon, i);
+            const double error = in_epsilon / (1 + condition);
             (where == Region::front ? errors.front : errors.back).add(error, i);
             // Its rows are too few among those in front to count there, and maps are guarded at just this cosine.
             if (reader.has_wo() && reader.cos_theta_o(row.data()) == 0) errors.level.add(error, i);
@@ -100,7 +102,7 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
 
 }  // namespace
 
-Errors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table) {
+SamplerErrors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table) {
     const Columns results = evaluate(evaluator, sampler, table);
     const Real real = evaluator.input_real();
     // A _with_pdf form returns the plain form's direction first.
@@ -108,7 +110,7 @@ Errors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, co
     MapErrors errors = real == Real::f32 ? map_errors<double>(plain, table, results, real)
                                          : map_errors<long double>(plain, table, results, real);
     errors.front.merge(errors.back);
-    return errors.front;
+    return {errors.angle, errors.front};
 }
 
 std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function& sampler,

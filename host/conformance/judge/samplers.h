@@ -17,7 +17,11 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
 std::vector<Finding> check_with_pdf(runtime::Evaluator& evaluator, const Function& with_pdf,
                                     const PointwiseOptions& options);
 
-// The angles of either form to the exact map at the rows of `table`, over 1 + condition number, in epsilon.
-Errors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table);
+// The angles of either form to the exact map at the rows of `table`, in epsilon, and the same over 1 + condition number: what
+// rounding the inputs alone would make of them.
+struct SamplerErrors {
+    Errors angle, over_condition;
+};
+SamplerErrors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table);
 
 }  // namespace vndf::conformance
