@@ -195,7 +195,7 @@ std::vector<Form> selected_forms(const runtime::Device& device, const Selection&
 
 // What is measured together. Each batch after the first has the same kernel once more, for the noise of ratios between them.
 std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
-    constexpr std::size_t most = 100;  // programs; a driver may keep some megabytes of each
+    constexpr std::size_t most = 60;  // programs; a driver may keep some megabytes of each
     std::stable_sort(forms.begin(), forms.end(), [](const Form& a, const Form& b) {
         return bench::batch_of(a.rung) < bench::batch_of(b.rung);
     });

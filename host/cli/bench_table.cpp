@@ -51,11 +51,10 @@ const double* figure(const Row& row, const std::string& name) {
     return nullptr;
 }
 
-// Short enough for seven columns.
+// In at most five characters.
 std::string number(double x) {
-    return x >= 99999.5 ? fmt::format("{:.0e}", x)
-           : x >= 99.95 ? fmt::format("{:.0f}", x)
-                        : fmt::format("{:.3g}", x);
+    if (x >= 9999.5) return fmt::format("{:.0e}", x);
+    return fmt::format("{:.{}f}", x, x >= 99.95 ? 0 : x >= 9.995 ? 1 : 2);
 }
 
 std::string cell(const Row& row, const std::string& name) {
@@ -89,10 +88,20 @@ std::string price(const Row& row, const std::map<std::string, double>& spread) {
     return {};
 }
 
+// Results that are none: not finite, or normals below the horizon.
+std::string bad(const Row& row) {
+    double count = 0;
+    for (const char* name : {"nonfinite", "below"})
+        if (const double* x = figure(row, name)) count += *x;
+    return count == 0 ? "" : count < 9999.5 ? fmt::format("{:.0f}", count) : "many";
+}
+
 void print_rows(const std::vector<Row>& rows, const std::map<std::string, double>& spread) {
-    put("{:23} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6} {:>6} {:>6} {:>6} {:>3}\n",
-        "ns a sample, best", "stream", "cached", "front", "1 lobe", "price", "p50", "p99", "p99.99", "max",
-        "b p99", "b max", "bad");
+    const auto line = [](const auto&... cells) {
+        put("{:23} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6} {:>5} {:>5} {:>5} {:>4}\n", cells...);
+    };
+    line("ns a sample, best", "stream", "cached", "front", "1 lobe", "price", "p50", "p99", "p99.99", "max",
+         "b p99", "b max", "bad");
     std::string function;
     for (const Row& row : rows) {
         if (row.rung.empty()) {
@@ -100,20 +109,15 @@ void print_rows(const std::vector<Row>& rows, const std::map<std::string, double
             continue;
         }
         if (row.function != function) put("{}\n", function = row.function);
-        const double *nonfinite = figure(row, "nonfinite"), *below = figure(row, "below");
-        const double bad = (nonfinite ? *nonfinite : 0) + (below ? *below : 0);
-        put("  {:21} {:>6} {:>6} {:>6} {:>6} {:>5} {:>5} {:>5} {:>6} {:>6} {:>6} {:>6} {:>3}\n", row.rung,
-            time(row, "stream"), time(row, "cached"), time(row, "cached_front"), time(row, "compute"),
-            price(row, spread), error(row, "p50"), error(row, "p99"), error(row, "p9999"), error(row, "max"),
-            error(row, "back_p99"), error(row, "back_max"),
-            bad == 0     ? ""
-            : bad < 1000 ? fmt::format("{:.0f}", bad)
-                         : "!!!");
+        line("  " + row.rung, time(row, "stream"), time(row, "cached"), time(row, "cached_front"),
+             time(row, "compute"), price(row, spread), error(row, "p50"), error(row, "p99"),
+             error(row, "p9999"), error(row, "max"), error(row, "back_p99"), error(row, "back_max"),
+             bad(row));
     }
     put("\nstream: arrays in memory. cached: arrays in a cache, own lobe a sample, half of them back-facing\n"
         "where valid; front: none. 1 lobe: the same lobe for all. price: time over the lean form's, cached;\n"
-        "=: within noise. Errors in eps (1 + condition number), eps 2^-24 or 2^-53; b: wo below the "
-        "surface.\n"
+        "=: within noise. Errors in eps, 2^-24 or 2^-53: the angle to the same map in exact arithmetic, of\n"
+        "values the relative error in the unit of clvndf check; b: wo below the surface.\n"
         "bad: results that are not finite, and normals below the horizon.\n");
 }
 
@@ -148,11 +152,11 @@ void print_sentences(const std::vector<Row>& rows, const std::map<std::string, d
         put(".\n");
         if (const Row* lean = find(rows, best->function, "lean/float")) {
             const std::string paid = price(*best, spread);
-            put("Its accuracy costs {} and buys a largest error of {} eps in place of {}",
+            put("Its accuracy costs {}\nand buys a largest error of {} eps in place of {}",
                 paid == "=" ? "nothing beyond noise" : fmt::format("{} times the lean form's time", paid),
                 error(*best, "max"), error(*lean, "max"));
             if (figure(*best, "err_back_max"))
-                put(",\nbehind the surface {} in place of {}", error(*best, "back_max"),
+                put(", behind the surface {} in place of {}", error(*best, "back_max"),
                     error(*lean, "back_max"));
             put(";\nthe median is {} in place of {}.\n", error(*best, "p50"), error(*lean, "p50"));
         }
