@@ -22,6 +22,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench/results/pocl-3.1.json"
+INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 
 
 # --- The registry ---
@@ -139,6 +140,26 @@ def copies():
             yield f"`{name.split('/')[0]}`", f"{run.best[name]['ns_per_sample']:.2f}"
 
 
+# --- The committed counts of instructions ---
+
+def instructions():
+    entries = {}
+    for entry in json.loads(INSTRUCTIONS.read_text("utf-8"))["entries"]:
+        key = entry["target"], entry["form"]
+        entries.setdefault(entry["function"], {}).setdefault(key, {})[entry["division"]] = entry
+    for name, counts in sorted(entries.items(), key=lambda item: (not item[0].startswith("vndf_ggx"), item[0])):
+        if name.endswith("_with_pdf"):
+            continue
+        cells = []
+        for target in ("sm_80", "gfx900"):
+            forms = [counts.get((target, form), {}) for form in ("strict", "lean", "published")]
+            if name.startswith("copy"):
+                forms[0] = counts[target, "copy"]
+            cells += [", ".join(str(entry["instructions"]) for entry in form.values()) for form in forms]
+            cells.append(", ".join(str(form["fast"]["registers"]) for form in forms if form))
+        yield f"`{name.removeprefix('vndf_')}`", *cells
+
+
 STREAM, COMPUTE, PUBLISHED = ("strict/float", "stream"), ("strict/float", "compute"), ("published/float", "stream")
 TABLES = {
     "samplers": lambda build: table(["sampler", "density", "method", "domain", "error", "in double", "source"],
@@ -150,6 +171,8 @@ TABLES = {
     "times": lambda build: table(
         ["sampler", "strict", "strict, one lobe", "builtin", "strict double", "C++", "published", "p99", "p99, published"],
         times((STREAM, COMPUTE, ("builtin/float", "stream"), ("strict/double", "stream"), ("cpp/float", "stream"), PUBLISHED))),
+    "instructions": lambda build: table(["sampler", *(f"{target} {what}" for target in ("sm_80", "gfx900") for what in
+                                         ("strict", "lean", "published", "registers"))], instructions()),
     "copies": lambda build: table(["copy", "ns"], copies()),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),
