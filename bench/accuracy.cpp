@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include "conformance/inputs/rows.h"
 #include "conformance/judge/known_bias.h"
@@ -17,11 +20,24 @@ using conformance::Direction, conformance::Point, conformance::Table;
 struct Rows {
     std::vector<Point> points;
     Table table;
+    conformance::ExactMap exact;  // of samplers
 };
 
-Rows rows_of(const Function& function, runtime::Real real, std::size_t count, Side side, AlphaRange alpha) {
-    Rows rows{points(count, in_world_space(function), side, alpha), {}};
+// Inputs, and what is exact for them: the same for every form of a function, and slow to compute.
+const Rows& rows_of(const Function& function, runtime::Real real, std::size_t count, Side side,
+                    AlphaRange alpha) {
+    static std::map<std::string, Rows> known;
+    const std::string key = fmt::format("{} {} {} {} {}", function.name, to_string(real), count,
+                                        static_cast<int>(side), alpha.low);
+    const std::string function_key = function.name + ' ';
+    // Functions come one after the other: what belongs to earlier ones is not needed again.
+    std::erase_if(known, [&](const auto& entry) { return !entry.first.starts_with(function_key); });
+    auto [found, missing] = known.try_emplace(key);
+    Rows& rows = found->second;
+    if (!missing) return rows;
+    rows.points = points(count, in_world_space(function), side, alpha);
     rows.table = conformance::tabulate(function, rows.points, real);
+    if (function.kind == Kind::sampler) rows.exact = conformance::exact_map(function, rows.table, real);
     return rows;
 }
 
@@ -70,8 +86,9 @@ std::map<std::string, double> accuracy(runtime::Evaluator& evaluator, const Func
     if (function.kind == Kind::sampler) figures["below"] = 0;
     for (const Side side : {Side::front, Side::back}) {
         if (side == Side::back && !has_back(function)) continue;
-        const Rows judged = rows_of(function, evaluator.input_real(), rows, side, alpha);
-        count_bad(function, judged, conformance::evaluate(evaluator, function, judged.table), figures);
+        const Rows& judged = rows_of(function, evaluator.input_real(), rows, side, alpha);
+        const auto results = conformance::evaluate(evaluator, function, judged.table);
+        count_bad(function, judged, results, figures);
         if (!same_map) continue;
         const std::string of = side == Side::front ? "" : "_back";
         if (function.kind != Kind::sampler) {
@@ -80,7 +97,7 @@ std::map<std::string, double> accuracy(runtime::Evaluator& evaluator, const Func
             continue;
         }
         const conformance::SamplerErrors errors =
-            conformance::sampler_errors(evaluator, function, judged.table);
+            conformance::sampler_errors(judged.exact, results, evaluator.input_real());
         add_errors("err" + of, errors.over_condition, evaluator.input_real(), figures);
         add_errors("angle" + of, errors.angle, evaluator.input_real(), figures);
     }
@@ -95,7 +112,7 @@ std::map<std::string, double> accuracy(runtime::Evaluator& evaluator, const Func
 double useful_part(runtime::Evaluator& evaluator, const Function& function, std::size_t count,
                    AlphaRange alpha) {
     if (function.kind != Kind::sampler) return 1;
-    const Rows rows = rows_of(function, evaluator.input_real(), count, Side::front, alpha);
+    const Rows& rows = rows_of(function, evaluator.input_real(), count, Side::front, alpha);
     const auto results = conformance::evaluate(evaluator, function, rows.table);
     std::size_t useful = 0;
     for (std::size_t i = 0; i < count; ++i) {

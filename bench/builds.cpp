@@ -49,8 +49,8 @@ Source call_sites(const std::string& sampler, bool inlined) {
         sampler);
     for (int k = 0; k < 12; ++k)
         code += fmt::format(
-            "    sum += {}((float3)(0.6f, 0.0f, 0.8f), (float2)(a[i], 0.{}f), (float2)(0.5f, a[i]));\n",
-            callee, k + 1);
+            "    sum += {}((float3)(a[i], 0.{}f, 0.8f), (float2)(a[i], 0.{}f), (float2)(0.5f, a[i]));\n",
+            callee, k + 1, 12 - k);
     source.options.more_source = code + "    a[i] = sum.x + sum.y + sum.z;\n}\n";
     source.kernels = {"bench_call_sites"};
     return source;

@@ -122,6 +122,7 @@ std::string with_surroundings(const std::string& json, const Surroundings& surro
                                   {"warm_s", b.warm_s},
                                   {"source_bytes", b.source_bytes},
                                   {"binary_bytes", b.binary_bytes}});
+    data["instructions"] = nlohmann::ordered_json::parse(surroundings.instructions);
     return data.dump(1) + "\n";
 }
 

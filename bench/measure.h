@@ -27,6 +27,7 @@ struct Surroundings {
     std::vector<std::pair<std::string, std::string>> context;
     std::vector<LobeNoise> lobes;
     std::vector<BuildTime> builds;
+    std::string instructions = "{}";  // bench/results/instructions.json
 };
 
 struct Measurement {

@@ -361,12 +361,15 @@ void Session::require_same_results(const Function& function, const Rung& rung) {
                                               function.name, rung.layout));
 }
 
+std::size_t Session::judged_rows(const Function& function) const {
+    const bool plain_sampler = function.kind == Kind::sampler && !function.with_pdf;
+    return plain_sampler ? options_.judged_rows : options_.judged_rows / 4;
+}
+
 // What is known of a form before it is timed.
 std::map<std::string, double> Session::figures(const Function& function, const Rung& rung) {
     if (rung.layout == "readme") return {};  // it has outputs of its own
-    const std::size_t rows = function.kind == Kind::sampler && !function.with_pdf ? options_.judged_rows
-                                                                                  : options_.judged_rows / 4;
-    return accuracy(*evaluators_.back(), function, rows, options_.alpha, rung.same_map);
+    return accuracy(*evaluators_.back(), function, judged_rows(function), options_.alpha, rung.same_map);
 }
 
 void Session::add_device(const Function& function, const Rung& rung) {
@@ -387,7 +390,7 @@ void Session::add_device(const Function& function, const Rung& rung) {
     known["build_cold_s"] = cold_s;
     if (options_.warm_builds) known["build_warm_s"] = warm_s;
     const double useful =
-        rung.layout == "readme" ? 1 : useful_part(evaluator, function, options_.judged_rows, options_.alpha);
+        rung.layout == "readme" ? 1 : useful_part(evaluator, function, judged_rows(function), options_.alpha);
     for (const Mode mode : rung.modes) {
         Entry added = entry(function, rung, mode);
         added.figures = known;

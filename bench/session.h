@@ -59,6 +59,7 @@ class Session {
     void add_cpp(const Function& function, const Rung& rung);
     Entry cpp_entry(const Function& function, bool compute);
     double build(const Function& function, const Rung& rung, const runtime::ProgramOptions& options);
+    std::size_t judged_rows(const Function& function) const;
     void require_same_results(const Function& function, const Rung& rung);
     std::map<std::string, double> figures(const Function& function, const Rung& rung);
 

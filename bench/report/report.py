@@ -27,6 +27,8 @@ POLICIES = {  # key of an entry's policy and type: name, colour, marker
     "strict/double": ("strict double", "#17becf", "D"),
     "builtin/double": ("builtin double", "#bcbd22", "v"),
     "published/float": ("published listing", "#d62728", "X"),
+    "lean/float": ("lean listing", "#9467bd", "*"),
+    "factored/float": ("factored listing", "#8c564b", "h"),
     "cpp/float": ("C++, all threads", "#7f7f7f", "P"),
 }
 DOUBLE_UNIT = 2.0 ** -29  # 2^-53 in units of 2^-24
@@ -45,6 +47,9 @@ class Bench:
         self.spread = {b["run_name"]: b["ns_per_sample"] for b in data["benchmarks"]
                        if b.get("aggregate_name") == "cv"}
         self.lobes = data.get("lobes", [])
+        self.noise = data.get("spread", {})
+        self.builds = data.get("builds", [])
+        self.instructions = data.get("instructions", {"entries": []})
         functions = {n.split("/")[0] for n in self.best if n.startswith("vndf_")}
         self.functions = sorted(functions, key=lambda f: (not f.startswith("vndf_ggx"), "_sample_" not in f, f))
 
@@ -54,6 +59,16 @@ class Bench:
 
     def counter(self, name, counter):
         return self.best.get(name, {}).get(counter)
+
+    def ratio(self, x, mode):
+        """A ratio of times in words: none is a difference that two identical kernels may show."""
+        if x is None:
+            return ""
+        return "≈ 1" if max(x, 1 / x) <= 1 + self.noise.get(mode, 0) else f"{x:.2f}"
+
+    def priced(self):
+        """Samplers with a lean form."""
+        return [s for s in self.samplers() if f"{s}/lean/float/cached" in self.best]
 
     def samplers(self):
         return [f for f in self.functions if "_sample_" in f and not f.endswith("_with_pdf")]
@@ -98,6 +113,153 @@ def pareto(points):
         if not front or y < front[-1][1]:
             front.append((x, y))
     return front
+
+
+STEPS = ("lean/float", "factored/float", "strict/float")  # of accuracy, the cheapest first
+
+
+def price_panel(axis, bench, sampler):
+    """Time and errors of each step: in front of the surface and behind it, the median, the tail and the maximum."""
+    percentiles = (("p50", "_"), ("p99", "o"), ("p9999", "^"), ("max", "x"))
+    for side, colour in (("", "#1f77b4"), ("_back", "#ff7f0e")):
+        for step in STEPS:
+            entry = bench.best.get(f"{sampler}/{step}/cached")
+            if not entry or f"angle{side}_max" not in entry:
+                continue
+            x = entry["ns_per_sample"] * (1.015 if side else 1)
+            errors = [max(entry[f"angle{side}_{name}"], 1e-2) for name, _ in percentiles]
+            axis.plot([x, x], [errors[0], errors[-1]], color=colour, linewidth=0.9)
+            for (_, marker), error in zip(percentiles, errors):
+                axis.plot(x, error, marker, color=colour, markersize=6)
+            if not side:
+                axis.annotate(step.split("/")[0], (x, errors[-1]), xytext=(0, 5), textcoords="offset points", fontsize=7,
+                              ha="center")
+    axis.set_yscale("log")
+    axis.set_ylim(1e-2, 1e8)
+    low, high = axis.get_xlim()
+    axis.set_xlim(0, high + 0.15 * (high - low))
+    axis.set_title(short(sampler), fontsize=8)
+
+
+def price_of_accuracy(benches):
+    samplers = benches[0].priced()
+    rows = max(1, math.ceil(len(samplers) / 4))
+    figure, axes = plt.subplots(rows, 4, figsize=(11, 3.1 * rows + 0.4), squeeze=False, sharey=True)
+    for axis, sampler in zip(axes.flat, samplers):
+        price_panel(axis, benches[0], sampler)
+    for axis in list(axes.flat)[len(samplers):]:
+        axis.axis("off")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("angle to exact arithmetic, $2^{-24}$", fontsize=8)
+    for axis in axes[-1]:
+        axis.set_xlabel("ns a sample, cached", fontsize=8)
+    marks = [plt.Line2D([], [], marker=marker, color="black", linestyle="", label=label)
+             for label, marker in (("median", "_"), ("99 %", "o"), ("99.99 %", "^"), ("maximum", "x"))]
+    marks += [plt.Line2D([], [], color=colour, label=label)
+              for label, colour in (("wo above the surface", "#1f77b4"), ("wo below it", "#ff7f0e"))]
+    figure.suptitle(" ")
+    figure.legend(handles=marks, fontsize=8, loc="upper center", ncol=6, frameon=False).set_in_layout(False)
+    return figure
+
+
+PRICE_HEAD = ("sampler", "form", "ns, cached", "price", "median", "99 %", "99.99 %", "maximum", "behind: 99 %", "maximum",
+              "no result", "same bits everywhere")
+
+
+def price_rows(bench):
+    """For every sampler with a lean form: what each step costs and what it buys."""
+    def error(entry, name):
+        return "" if name not in entry else short_number(entry[name])
+
+    for sampler in bench.priced():
+        for step in (*STEPS, "strict/double", "published/float"):
+            entry = bench.best.get(f"{sampler}/{step}/cached")
+            if not entry:
+                continue
+            bad = int(entry["nonfinite"] + entry.get("below", 0))
+            yield (short(sampler), step.replace("/", " "), f"{entry['ns_per_sample']:.2f}",
+                   bench.ratio(entry.get("price"), "cached"), *(error(entry, f"angle_{p}") for p in ("p50", "p99", "p9999", "max")),
+                   error(entry, "angle_back_p99"), error(entry, "angle_back_max"), str(bad) if bad else "",
+                   "yes" if step.startswith("strict") else "")
+
+
+def short_number(x):
+    return f"{x:.0e}".replace("e+0", "e") if x >= 1e5 else f"{x:.0f}" if x >= 99.95 else f"{x:.1f}" if x >= 9.95 else f"{x:.2f}"
+
+
+def where_lean_is_enough(bench):
+    """In words, from the numbers: what is lost with the lean form of each sampler, as an angle."""
+    def angle(x):
+        return "any direction" if x > 2 ** 24 else f"{x * 2 ** -24:.1g} rad"
+
+    for sampler in bench.priced():
+        entry = bench.best[f"{sampler}/lean/float/cached"]
+        text = (f"{short(sampler)}: 99 % of its lean results are within {angle(entry['angle_p99'])}, 99.99 % within "
+                f"{angle(entry['angle_p9999'])}, the worst of the run was off by {angle(entry['angle_max'])}")
+        if "angle_back_max" in entry:
+            text += f"; below the surface by {angle(entry['angle_back_max'])}, and 1 % by more than {angle(entry['angle_back_p99'])}"
+        yield text + "."
+
+
+def layouts(benches):
+    bench = benches[0]
+    forms = (("strict", "an array for each scalar"), ("aos_struct", "structures"), ("aos_stride", "distance as argument"),
+             ("aos_float4", "float4"), ("aos_vload3", "vload3"))
+    names = [s for s in bench.samplers() if f"{s}/aos_vload3/float/stream" in bench.best]
+    figure, axes = plt.subplots(1, 2, figsize=(11, 0.9 * len(names) + 1.6), squeeze=False, sharey=True)
+    colours = ("#1f77b4", "#9467bd", "#2ca02c", "#ff7f0e", "#d62728")
+    for axis, mode in zip(axes[0], ("stream", "cached")):
+        bars(axis, [short(n) for n in names],
+             [(label, colour, [bench.ns(n, f"{form}/float", mode) for n in names])
+              for (form, label), colour in zip(forms, colours)])
+        axis.set_xscale("log")
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda x, _: f"{x:g}"))
+        axis.set_xlabel(f"ns a sample, {'streaming' if mode == 'stream' else mode}")
+        axis.set_title(bench.device, fontsize=8)
+    axes[0][0].legend(fontsize=7, loc="upper center", bbox_to_anchor=(1.0, -0.2), ncol=5, frameon=False)
+    return figure
+
+
+FLAG_SETS = (("luxcore", "LuxCore and Baikal"), ("fluctus", "Fluctus"), ("cycles", "Cycles (2016)"), ("hydracore", "HydraCore"))
+
+
+def flag_rows(bench):
+    """Samplers under renderers' build options: time over that of strict, largest angles in front and behind, no results."""
+    for sampler in bench.samplers():
+        strict = bench.ns(sampler, "strict/float", "cached")
+        cells = []
+        for name, _ in FLAG_SETS:
+            entry = bench.best.get(f"{sampler}/{name}/float/cached")
+            if not entry or not strict:
+                cells.append("")
+                continue
+            bad = int(entry["nonfinite"] + entry.get("below", 0))
+            largest = [short_number(entry[f"angle{side}_max"]) for side in ("", "_back") if f"angle{side}_max" in entry]
+            cells.append(f"{bench.ratio(entry['ns_per_sample'] / strict, 'cached')}; {', '.join(largest)}"
+                         + (f"; {bad}" if bad else ""))
+        if any(cells):
+            yield (short(sampler), *cells)
+
+
+def build_rows(bench):
+    for b in bench.builds:
+        yield (b["program"].replace("vndf_", ""), f"{b['cold_s']:.2f}", f"{b['warm_s']:.2f}", f"{b['source_bytes'] / 1000:.0f}",
+               f"{b['binary_bytes'] / 1000:.0f}")
+
+
+def instruction_rows(entries):
+    """For each target the rows: sampler, then instructions / registers of each form with each kind of division."""
+    counts = {(e["target"], e["function"], e["form"], e["division"]): e for e in entries}
+    columns = [(form, division) for form in ("strict", "lean", "factored", "published") for division in ("ieee", "fast")]
+    columns.append(("published", "fast-math"))
+    for target in dict.fromkeys(e["target"] for e in entries):
+        rows = []
+        for name in dict.fromkeys(e["function"] for e in entries if e["target"] == target):
+            found = [counts.get((target, name, *column)) for column in columns]
+            if name.startswith("copy"):
+                found[:2] = [counts[target, name, "copy", division] for division in ("ieee", "fast")]
+            rows.append((short(name), *(f"{e['instructions']} / {e['registers']}" if e else "" for e in found)))
+        yield target, [f"{form}, {division}" for form, division in columns], rows
 
 
 def accuracy_panel(axis, bench, ndf, real):
@@ -457,7 +619,8 @@ def entry_rows(bench):
         yield (name, number(best["ns_per_sample"]), number(bench.median[name]["ns_per_sample"]),
                number(100 * bench.spread.get(name, 0), "{:.0f} %"), number(event), number(best["ns_per_useful_sample"]),
                number(best.get("fraction_of_copy"), "{:.2f}"), number(best.get("speedup_over_published"), "{:.1f}"),
-               number(best.get("err_p50")), number(best.get("err_p99")), number(best.get("err_max")),
+               number(best.get("price"), "{:.2f}"), number(best.get("err_p50")), number(best.get("err_p99")),
+               number(best.get("err_max")), number(best.get("angle_max")), number(best.get("angle_back_max")),
                number(best.get("bias")))
 
 
@@ -470,6 +633,10 @@ def lobe_rows(bench):
 
 
 PLOTS = (
+    ("What does each step of accuracy cost, and what does it buy?", price_of_accuracy,
+     "Each stick is a form of a sampler, from the left to the right: the listing on scalars (lean); with 1 +- z free of "
+     "cancellation (factored); ours (strict). From below: median, 99 %, 99.99 % and maximum of the angle to the same map in exact "
+     "arithmetic. Own lobe a sample, arrays in a cache, half of the lobes back-facing where that is valid."),
     ("Accuracy against time", accuracy_against_time,
      "Left and low is better. The error is the angle between the result and what exact arithmetic would give for the same "
      "map, over the inputs that are timed; the GGX listing of 2014 is judged against its own fit, whose bias comes on top."),
@@ -481,7 +648,11 @@ PLOTS = (
      "and write as many arrays. Right, 1 is a kernel of nothing but fma on registers; an fma counts as two operations, a "
      "division or a root as one, although it takes the time of many, and comparisons and selections as none."),
     ("What each step of accuracy costs", cost_of_accuracy,
-     "Right of 1 the more accurate form takes longer; left of 1 it is the faster one as well."),
+     "Right of 1 the more accurate form takes longer; left of 1 it takes less time, on this device: builtin calls a scalar "
+     "function for each sine and logarithm where the compiler does not vectorise it. The price over the lean form is above."),
+    ("Layouts", layouts,
+     "The same sampler over an array for each scalar and over arrays as renderers keep them (bench/layouts.cl). Where LLVM packs "
+     "neighbouring loads and stores, PoCL does not vectorise the kernel."),
     ("Iterations", iterations,
      "The inversion of Jakob 2014 with other numbers of steps. The other inversion, the exact slopes of Heitz & d'Eon 2014, "
      "has none: Kepler's equation is solved by two polynomials."),
@@ -506,6 +677,25 @@ td,th{border-bottom:1px solid #ddd;padding:2px 10px 2px 0;text-align:left;vertic
 figure{margin:1em 0} figcaption{color:#555} details table{font-size:11px}"""
 
 
+def price_section(bench):
+    lost = "".join(f"<li>{html.escape(line)}</li>" for line in where_lean_is_enough(bench))
+    return (f"<h3>{html.escape(bench.device)}</h3>{table(PRICE_HEAD, price_rows(bench))}<p>Errors in 2<sup>-24</sup> (double: "
+            "2<sup>-53</sup>). No result: not finite, or a normal below the horizon. Lean is enough where wo is above the surface, "
+            f"its bits need not be those of another device, and these angles do no harm:</p><ul>{lost}</ul>")
+
+
+def more_tables(bench):
+    out = [f"<h2>Build options of renderers</h2><h3>{html.escape(bench.device)}</h3>",
+           table(["strict under", *(name for _, name in FLAG_SETS)], flag_rows(bench)),
+           "<p>Time over strict's, cached; largest angles in front of and behind the surface, 2<sup>-24</sup>; what is no result.</p>",
+           "<h2>What a program costs to build</h2>",
+           table(["strict float", "cold, s", "warm, s", "source, kB", "binary, kB"], build_rows(bench)),
+           "<p>Until every kernel has run once; cold: with an empty compiler cache.</p>"]
+    for target, columns, rows in instruction_rows(bench.instructions["entries"]):
+        out.append(f"<h2>Instructions / registers: {target}</h2>{table(['sampler', *columns], rows)}")
+    return "".join(out)
+
+
 def page(benches):
     out = [f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>clvndf bench</title>"
            f"<style>{STYLE}</style></head><body><h1>clvndf: accuracy against time</h1>"]
@@ -514,9 +704,17 @@ def page(benches):
              "mhz_per_cpu", "clvndf_version")
     out.append(table(["", *[f"run {i + 1}" for i in range(len(benches))]],
                      [(f, *[b.context.get(f, "") for b in benches]) for f in facts if f != "host_name"]))
+    for bench in benches:
+        noise = ", ".join(f"{mode} {100 * x:.1f} %" for mode, x in bench.noise.items())
+        out.append(f"<p>{html.escape(bench.device)}: measured on {html.escape(bench.context.get('inputs', ''))}. Two identical "
+                   f"kernels differ by up to {noise or 'an unknown part (none was measured twice)'}: a ratio within that is "
+                   "written ≈ 1.</p>")
     for title, plot, caption in PLOTS:
         out.append(f"<h2>{title}</h2><figure>{svg(plot(benches))}<figcaption>{html.escape(caption)}</figcaption>"
                    "</figure>")
+        if plot is price_of_accuracy:
+            out += [price_section(bench) for bench in benches]
+    out += [more_tables(bench) for bench in benches]
     out.append("<h2>The papers' headline figures, and ours</h2>")
     for bench in benches:
         out.append(f"<h3>{html.escape(bench.device)}</h3>")
@@ -529,8 +727,8 @@ def page(benches):
                "mean) and by the driver's event; errors in units of 2<sup>-24</sup> (double: 2<sup>-53</sup>) times "
                "1 + condition number. Bias: the largest error of an approximate sampler's cumulative distribution.</p>")
     for bench in benches:
-        head = ["entry", "best", "median", "spread", "event", "useful", "of copy", "x published", "err p50", "err p99",
-                "err max", "bias"]
+        head = ["entry", "best", "median", "spread", "event", "useful", "of copy", "x published", "price",
+                "err p50", "err p99", "err max", "angle max", "behind", "bias"]
         out.append(f"<details><summary>{html.escape(bench.device)}</summary>{table(head, entry_rows(bench))}</details>")
     head = ["alpha", "cos", "sampler", "rejected"] + [f"{light}, {ns} ns" for ns in (0, 100) for light in LIGHTS]
     out.append("<h2>All lobes</h2><p>Rejected samples and, as in the plots, the gain over the bounded cap in equal time.</p>"

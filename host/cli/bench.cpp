@@ -74,19 +74,24 @@ std::string in_folder(const std::string& folder, const char* name) {
     return (std::filesystem::path(folder) / name).string();
 }
 
+// A file of the bench in this binary.
+std::string_view embedded(const std::string& path) {
+    const auto& files = bench::sources();
+    return std::find_if(files.begin(), files.end(),
+                        [&](const runtime::SourceFile& f) { return f.path == path; })
+        ->text;
+}
+
 // The page out of the measurements, by the script in this binary.
 void draw(const std::string& page, const std::string& measurements, const std::string& folder) {
-    const auto& files = bench::sources();
-    const auto script = std::find_if(files.begin(), files.end(), [](const runtime::SourceFile& f) {
-        return f.path == "bench/report/report.py";
-    });
+    const std::string_view script = embedded("bench/report/report.py");
     // The paths go by the environment, so that no name has to be quoted.
     setenv("CLVNDF_REPORT", page.c_str(), 1);
     setenv("CLVNDF_BENCH", measurements.c_str(), 1);
     const auto before =
         std::signal(SIGPIPE, SIG_IGN);  // python3 may be missing, or end before it has read all
     std::FILE* python = popen("python3 - \"$CLVNDF_REPORT\" \"$CLVNDF_BENCH\"", "w");
-    if (python) std::fwrite(script->text.data(), 1, script->text.size(), python);
+    if (python) std::fwrite(script.data(), 1, script.size(), python);
     const bool drawn = python && pclose(python) == 0;
     std::signal(SIGPIPE, before);
     if (!drawn)
@@ -205,7 +210,10 @@ std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
     for (const Form& form : forms) {
         const bool other = !batches.back().empty() &&
                            bench::batch_of(form.rung) != bench::batch_of(batches.back().back().rung);
-        if (batches.back().size() >= most || (other && forms.size() > most)) {
+        // What is derived from a function's strict form stays beside it.
+        const bool full =
+            batches.back().size() >= most && form.function->plain != batches.back().back().function->plain;
+        if (full || (other && forms.size() > most)) {
             batches.emplace_back();
             if (strict != forms.end())
                 batches.back().push_back({strict->function, bench::again(*strict->function, batches.size())});
@@ -295,6 +303,7 @@ void run_bench(Bench options, Common& common) {
         progress("noise and builds", 0);
         surroundings.lobes = bench::lobe_noise();
         surroundings.builds = bench::build_times(session.program());
+        surroundings.instructions = embedded("bench/results/instructions.json");
     }
     const bench::Measurement measurement = measurer.finish(surroundings);
     progress.clear();

@@ -7,15 +7,9 @@ import json
 import re
 import sys
 
-FUNCTIONS = ("ggx_sample_wm_heitz_deon2014", "ggx_sample_wm_heitz2018", "ggx_sample_wm_dupuy2023",
-             "ggx_sample_wm_benyoub2024", "ggx_sample_wi_eto2023", "beckmann_sample_wm_heitz_deon2014",
-             "beckmann_sample_wm_jakob2014")
-# For equal time: the cost of a sample with its density.
-EQUAL_TIME = re.compile(r"vndf_ggx_(sample_wm_(walter2007|dupuy2023)_with_pdf|sample_wi_\w+_with_pdf|sigma_visible)"
-                        r"/strict/float/compute")
-# For the README's table of times.
-TIMES = re.compile(r"vndf_\w+_sample_w[mi]_\w+(?<!_with_pdf)"
-                   r"/(strict/float/(stream|compute)|(builtin|cpp|published)/float/stream|strict/double/stream)")
+# Every rung of the samplers without a density; of all others strict float.
+KEPT = re.compile(r"(copy_(40|48)B/|fma/|vndf_\w+_sample_w[mi]_\w+(?<!_with_pdf)/|vndf_\w+/strict/float/).*")
+DROPPED = ("family_index", "per_family_instance_index", "repetitions", "threads", "aggregate_unit", "iterations")
 
 
 def rounded(value):
@@ -26,11 +20,8 @@ result = None
 for path in sys.argv[2:]:
     with open(path, encoding="utf-8") as file:
         data = json.load(file)
-    entries = [{k: rounded(v) for k, v in b.items()} for b in data["benchmarks"]
-               if b.get("aggregate_name") in ("best", "median", "cv")
-               and (b["run_name"].split("/")[0].removeprefix("vndf_") in FUNCTIONS
-                    or EQUAL_TIME.fullmatch(b["run_name"]) or TIMES.fullmatch(b["run_name"])
-                    or b["run_name"].startswith(("copy_40B/", "copy_48B/", "fma/")))]
+    entries = [{k: rounded(v) for k, v in b.items() if k not in DROPPED} for b in data["benchmarks"]
+               if b.get("aggregate_name") in ("best", "median", "cv") and KEPT.fullmatch(b["run_name"])]
     if result is None:
         result = data
         result["context"] = {k: v for k, v in data["context"].items() if k not in ("host_name", "executable")}

@@ -13,8 +13,10 @@ std::vector<Finding> check_pointwise(runtime::Evaluator& evaluator, const Functi
 }
 
 Errors pointwise_errors(runtime::Evaluator& evaluator, const Function& function, const Table& table) {
-    return function.kind == Kind::sampler ? sampler_errors(evaluator, function, table).over_condition
-                                          : value_errors(evaluator, function, table);
+    if (function.kind != Kind::sampler) return value_errors(evaluator, function, table);
+    const runtime::Real real = evaluator.input_real();
+    return sampler_errors(exact_map(function, table, real), evaluate(evaluator, function, table), real)
+        .over_condition;
 }
 
 }  // namespace vndf::conformance

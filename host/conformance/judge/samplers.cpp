@@ -32,10 +32,10 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
 
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
-    Errors front, back, level, core, angle, outside, length, below, behind, bad;
+    Errors front, back, level, core, outside, length, below, behind, bad;
     void merge(const MapErrors& other) {
         front.merge(other.front), back.merge(other.back), level.merge(other.level);
-        core.merge(other.core), angle.merge(other.angle), outside.merge(other.outside);
+        core.merge(other.core), outside.merge(other.outside);
         length.merge(other.length), below.merge(other.below), behind.merge(other.behind),
             bad.merge(other.bad);
     }
@@ -87,9 +87,7 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
                 errors.outside.add(std::equal(wide, wide + 3, exact) ? 0 : 1, i);
                 continue;
             }
-            const auto in_epsilon = static_cast<double>(angle(wide, exact)) / unit;
-            errors.angle.add(in_epsilon, i);
-            const double error = in_epsilon / (1 + condition);
+            const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
             (where == Region::front ? errors.front : errors.back).add(error, i);
             // Its rows are too few among those in front to count there, and maps are guarded at just this cosine.
             if (reader.has_wo() && reader.cos_theta_o(row.data()) == 0) errors.level.add(error, i);
@@ -102,15 +100,51 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
 
 }  // namespace
 
-SamplerErrors sampler_errors(runtime::Evaluator& evaluator, const Function& sampler, const Table& table) {
-    const Columns results = evaluate(evaluator, sampler, table);
-    const Real real = evaluator.input_real();
+namespace {
+
+template <class R>
+void add_exact(const Function& plain, const Table& table, Real real, ExactMap& exact) {
+    const auto evaluation = reference::find_evaluation<R>(plain.name);
+    const auto conditioning = reference::find_condition(plain.name);
+    const RowReader reader(plain);
+    parallel_for(table.rows(), 512, [&](unsigned, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::vector<double> row = table.row(i);
+            const Region where = region(plain, reader, row.data());
+            if (where != Region::front && where != Region::back) continue;
+            exact.conditions[i] = conditioning(row.data(), precision(real));
+            if (!std::isfinite(exact.conditions[i])) continue;
+            const std::vector<R> in(row.begin(), row.end());
+            R direction[4];
+            evaluation(in.data(), direction, precision(real));
+            exact.directions[i] = {direction[0], direction[1], direction[2]};
+        }
+    });
+}
+
+}  // namespace
+
+ExactMap exact_map(const Function& sampler, const Table& table, Real real) {
+    ExactMap exact{std::vector<std::array<long double, 3>>(table.rows()),
+                   std::vector<double>(table.rows(), std::numeric_limits<double>::infinity())};
     // A _with_pdf form returns the plain form's direction first.
     const Function& plain = *find_function(sampler.plain);
-    MapErrors errors = real == Real::f32 ? map_errors<double>(plain, table, results, real)
-                                         : map_errors<long double>(plain, table, results, real);
-    errors.front.merge(errors.back);
-    return {errors.angle, errors.front};
+    real == Real::f32 ? add_exact<double>(plain, table, real, exact)
+                      : add_exact<long double>(plain, table, real, exact);
+    return exact;
+}
+
+SamplerErrors sampler_errors(const ExactMap& exact, const std::vector<std::vector<double>>& results,
+                             Real real) {
+    SamplerErrors errors;
+    for (std::size_t i = 0; i < exact.conditions.size(); ++i) {
+        if (!std::isfinite(exact.conditions[i])) continue;
+        const long double d[3] = {results[0][i], results[1][i], results[2][i]};
+        const auto in_epsilon = static_cast<double>(angle(d, exact.directions[i].data())) / epsilon(real);
+        errors.angle.add(in_epsilon, i);
+        errors.over_condition.add(in_epsilon / (1 + exact.conditions[i]), i);
+    }
+    return errors;
 }
 
 std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function& sampler,
