@@ -133,6 +133,54 @@ def gains():
                  for light in lights))
 
 
+def steps(run, sampler, figure):
+    """The figure of each step of accuracy, "lean; factored; ours", where there is one."""
+    entries = [run.best.get(f"{sampler}/{step}/cached") for step in bench()[0].STEPS]
+    return "; ".join(figure(entry) for entry in entries if entry)
+
+
+def price():
+    report, run = bench()
+    for sampler in run.priced():
+        def error(name):
+            return lambda entry: report.short_number(entry[name]) if name in entry else ""
+        ours = run.best[f"{sampler}/strict/float/cached"]
+        back = "angle_back_max" in ours
+        yield (f"`{sampler.removeprefix('vndf_')}`", steps(run, sampler, lambda entry: f"{entry['ns_per_sample']:.2f}"),
+               run.ratio(ours["price"], "cached"), *(steps(run, sampler, error(f"angle_{p}")) for p in ("p50", "p99", "max")),
+               *(steps(run, sampler, error(f"angle_back_{p}")) if back else "" for p in ("p99", "max")))
+
+
+def spread():
+    _, run = bench()
+    for mode, part in run.noise.items():
+        yield f"`{mode}`", f"{100 * part:.1f} %"
+
+
+LAYOUTS = ("strict", "aos_struct", "aos_stride", "aos_float4", "aos_vload3")
+
+
+def layouts():
+    _, run = bench()
+    for sampler in run.samplers():
+        if f"{sampler}/aos_vload3/float/stream" in run.best:
+            for mode in ("stream", "cached"):
+                yield (f"`{sampler.removeprefix('vndf_')}`", mode, *(ns(run.ns(sampler, f"{form}/float", mode)) for form in LAYOUTS))
+    readme = run.ns("vndf_ggx_sample_wm_dupuy2023", "readme/float")
+    yield "the README's example: cap, reflection, weight and density", "stream", "", "", "", "", ns(readme)
+
+
+def flags():
+    report, run = bench()
+    for name, *cells in report.flag_rows(run):
+        yield (name, *cells)
+
+
+def builds():
+    report, run = bench()
+    yield from report.build_rows(run)
+
+
 def copies():
     _, run = bench()
     for name in ("copy_40B/stream", "copy_48B/stream"):
@@ -160,19 +208,26 @@ def instructions():
         yield f"`{name.removeprefix('vndf_')}`", *cells
 
 
-STREAM, COMPUTE, PUBLISHED = ("strict/float", "stream"), ("strict/float", "compute"), ("published/float", "stream")
+STREAM, CACHED, COMPUTE, PUBLISHED = (
+    ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
     "samplers": lambda build: table(["sampler", "density", "method", "domain", "error", "in double", "source"],
                                     samplers(build)),
     "lobes": lambda build: table(["function", "returns", "source"], lobes(build)),
     "functions": lambda build: table(["function", "kind, support", "error", "in double", "source"], others(build)),
-    "results": lambda build: table(["sampler", "streaming", "one lobe", "published", "error", "error, published"],
-                                   times((STREAM, COMPUTE, PUBLISHED), visible_alone=True)),
+    "results": lambda build: table(["sampler", "streaming", "cached", "published", "error", "error, published"],
+                                   times((STREAM, CACHED, PUBLISHED), visible_alone=True)),
     "times": lambda build: table(
-        ["sampler", "strict", "strict, one lobe", "builtin", "strict double", "C++", "published", "p99", "p99, published"],
-        times((STREAM, COMPUTE, ("builtin/float", "stream"), ("strict/double", "stream"), ("cpp/float", "stream"), PUBLISHED))),
+        ["sampler", "strict", "cached", "one lobe", "builtin", "strict double", "C++", "published", "p99", "p99, published"],
+        times((STREAM, CACHED, COMPUTE, ("builtin/float", "stream"), ("strict/double", "stream"), ("cpp/float", "stream"), PUBLISHED))),
     "instructions": lambda build: table(["sampler", *(f"{target} {what}" for target in ("sm_80", "gfx900") for what in
                                          ("strict", "lean", "published", "registers"))], instructions()),
+    "price": lambda build: table(["sampler", "ns", "price", "median", "99 %", "maximum", "behind: 99 %", "maximum"], price()),
+    "spread": lambda build: table(["mode", "two identical kernels differ by up to"], spread()),
+    "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "structures", "distance as argument",
+                                    "`float4`", "`vload3`"], layouts()),
+    "flags": lambda build: table(["sampler", *(name for _, name in bench()[0].FLAG_SETS)], flags()),
+    "builds": lambda build: table(["program", "cold, s", "warm, s", "source, kB", "binary, kB"], builds()),
     "copies": lambda build: table(["copy", "ns"], copies()),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),
