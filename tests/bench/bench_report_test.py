@@ -43,6 +43,11 @@ def check_schema():
                   lambda d: d["benchmarks"].clear(),
                   lambda d: d["benchmarks"][0].update(run_name="vndf_x/fast/float/stream"),
                   lambda d: [b.pop("err_p99", None) for b in d["benchmarks"]],
+                  lambda d: [b.pop("angle_p9999", None) for b in d["benchmarks"]],
+                  lambda d: [b.update(price=None) for b in d["benchmarks"]],
+                  lambda d: [b.pop("price", None) for b in d["benchmarks"]],
+                  lambda d: d.pop("spread"),
+                  lambda d: d["builds"].clear(),
                   lambda d: [b.pop("fraction_of_copy", None) for b in d["benchmarks"]],
                   lambda d: d["lobes"][0].update(rejected=1.5)):
         spoilt = copy.deepcopy(data)
@@ -109,11 +114,41 @@ def check_command(clvndf):
     jsonschema.validate(data, schema)
     check_lobes(data)
     names = {b["run_name"] for b in data["benchmarks"]}
-    assert "vndf_jacobian_reflect/strict/float/stream" in names, names
-    assert "vndf_jacobian_reflect/strict/float/compute" in names, names
+    for mode in ("stream", "compute", "cached"):
+        assert f"vndf_jacobian_reflect/strict/float/{mode}" in names, names
+
+
+def check_committed():
+    """The committed run has every rung; ratios are those of its times; what it says of itself holds."""
+    data = json.loads(sample.read_text())
+    best = {b["run_name"]: b for b in data["benchmarks"] if b["aggregate_name"] == "best"}
+    cap = "vndf_ggx_sample_wm_dupuy2023"
+    for rung in ("strict", "lean", "factored", "published", "builtin", "native"):
+        for mode in ("stream", "compute", "cached", "cached_front"):
+            assert f"{cap}/{rung}/float/{mode}" in best, (rung, mode)
+    for rung in ("aos_vload3", "aos_float4", "aos_struct", "aos_stride"):
+        assert len([n for n in best if f"/{rung}/float/cached" in n]) == 3, rung
+    for rung in ("luxcore", "fluctus", "cycles", "hydracore"):
+        assert len([n for n in best if f"/{rung}/float/cached" in n]) >= 15, rung
+    assert f"{cap}/readme/float/stream" in best
+    lean = [n for n in best if "/lean/" in n and n.endswith("/cached")]
+    assert len(lean) == 7, lean
+    pairs = {}
+    for name, entry in best.items():
+        function, rung, real, mode = name.split("/") if name.count("/") == 3 else (None,) * 4
+        if function and f"{function}/lean/float/{mode}" in best:
+            wanted = entry["ns_per_sample"] / best[f"{function}/lean/float/{mode}"]["ns_per_sample"]
+            assert abs(entry["price"] / wanted - 1) < 2e-3, name
+        elif function:
+            assert entry["price"] is None, name
+        if function and rung.startswith("strict_again"):
+            ratio = entry["ns_per_sample"] / best[f"{function}/strict/{real}/{mode}"]["ns_per_sample"]
+            pairs[mode] = max(pairs.get(mode, 0), ratio - 1, 1 / ratio - 1)
+    assert pairs and all(abs(data["spread"][mode] - pairs[mode]) < 2e-3 for mode in pairs), (pairs, data["spread"])
 
 
 check_schema()
+check_committed()
 check_report()
 if len(sys.argv) > 2:
     check_command(sys.argv[2])

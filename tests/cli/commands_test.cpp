@@ -84,6 +84,8 @@ TEST_CASE("every command runs to its end with every option") {
                       "--report report",
                       // Its own results, and the committed ones.
                       "bench --only vndf_reflect/cpp --repetitions 3 --compare bench.json",
+                      "bench --only dupuy2023/strict --quick --repetitions 3 --alpha 0.1:1",
+                      "bench --only dupuy2023/lean --advise --error 1e9 --domain front --repetitions 3",
                       "bench --only vndf_reflect/cpp --repetitions 3 --compare \"$committed\""});
     }
     const Folder folder;
@@ -102,7 +104,7 @@ TEST_CASE("every command runs to its end with every option") {
         CHECK((status == 0 || no_matplotlib));
         add_options_of(line, reached);
         const bool compares = line.find("--compare") != std::string::npos;
-        CHECK((folder.read("out").find("baseline: this time") != std::string::npos) == compares);
+        CHECK((folder.read("out").find("another run") != std::string::npos) == compares);
     }
     CHECK(reached.size() >= 40);
     for (const std::string& option : all_options()) {
@@ -112,6 +114,29 @@ TEST_CASE("every command runs to its end with every option") {
     for (const std::string file : {"device.csv", "host.csv", "check.json", "check.xml", "policies.json"})
         CHECK_FALSE(folder.read(file).empty());
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));
+}
+
+TEST_CASE("bench advises the cheapest form within an error, and refuses demands that contradict each other") {
+    if (!has_bench()) return;
+    const Folder folder;
+    const std::string bench = "\"$clvndf\" --quiet bench --only dupuy2023/lean --repetitions 3 ";
+    CHECK(shell(folder, bench + "--advise --error 0.1 >out 2>err") == 0);
+    CHECK(folder.read("out").find("GGX visible normals: none of those measured has an error within 0.10 eps.") !=
+          std::string::npos);
+    CHECK(shell(folder, bench + "--advise --error 1e9 --domain front >out 2>err") == 0);
+    CHECK(folder.read("out").find("GGX visible normals: vndf_ggx_sample_wm_dupuy2023 ") != std::string::npos);
+    CHECK(folder.read("out").find("<- this one") != std::string::npos);
+    for (const std::string arguments :
+         {"--advise", "--error 5", "--advise --error 0", "--advise --error nan", "--advise --error 5 --quick",
+          "--domain front", "--advise --error 5 --domain back", "--alpha 1", "--alpha 1:0.5", "--alpha 0:1",
+          "--alpha 0.1:1x", "--alpha nan:1", "--alpha 0.1:1e4"}) {
+        CAPTURE(arguments);
+        CHECK(shell(folder, bench + arguments + " >out 2>err") == 2);
+        const std::string said = folder.read("err");
+        CAPTURE(said);
+        CHECK(std::count(said.begin(), said.end(), '\n') == 1);
+        CHECK(folder.read("out").empty());
+    }
 }
 
 TEST_CASE("a selection of nothing is refused, with what there is to select") {
