@@ -23,6 +23,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench/results/pocl-3.1.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
+PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 
 
 # --- The registry ---
@@ -208,6 +209,45 @@ def instructions():
         yield f"`{name.removeprefix('vndf_')}`", *cells
 
 
+# --- The committed run beside Mitsuba ---
+
+def code(name):
+    return f"`{name.removeprefix('vndf_')}`" if name.startswith("vndf_") else name
+
+
+def peer_times():
+    times = {(t["name"], t["with_pdf"]): t for t in json.loads(PEERS.read_text("utf-8"))["times"]}
+
+    def pairs(name):  # what two names of one thing took, from memory and cached, then with density
+        return [times[name, with_pdf][f"{size}_best"] for with_pdf in (False, True) if (name, with_pdf) in times
+                for size in ("memory", "cache")]
+
+    for name in dict.fromkeys(name for name, _ in times):
+        ours, theirs = pairs(name), pairs("Mitsuba Beckmann" if "beckmann" in name else "Mitsuba GGX")
+        ratios = [f"{min(a) / min(b):.2f}" for a, b in zip(ours, theirs)] if name.startswith("vndf_") else []
+        spread = max(100 * (max(pair) / min(pair) - 1) for pair in ours)
+        yield (code(name), *(f"{min(pair):.2f}" for pair in ours), *[""] * (4 - len(ours)), ", ".join(ratios),
+               f"{spread:.0f} %", f"{times[name, False]['first_call_s']:.2f}")
+
+
+def peer_errors(cell):
+    errors = json.loads(PEERS.read_text("utf-8"))["errors"]
+    inputs = list(dict.fromkeys(e["inputs"] for e in errors))
+    rows = {}
+    for e in errors:
+        rows.setdefault(e["name"], {})[e["inputs"]] = cell(e)
+    return table(["sampler", *inputs], [(code(name), *(row.get(kind, "") for kind in inputs)) for name, row in rows.items()])
+
+
+def peer_angles(e):
+    return ", ".join(f"{e[f'angle_{part}']:.2g}" for part in ("p50", "p99", "max"))
+
+
+def peer_densities(e):
+    faults = [f"{e[key]} {what}" for key, what in (("not_finite", "not finite"), ("outside", "outside")) if e[key]]
+    return "; ".join([f"{e['density_p99']:.0e}", *faults])
+
+
 STREAM, CACHED, COMPUTE, PUBLISHED = (
     ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
@@ -229,6 +269,10 @@ TABLES = {
     "flags": lambda build: table(["sampler", *(name for _, name in bench()[0].FLAG_SETS)], flags()),
     "builds": lambda build: table(["program", "cold, s", "warm, s", "source, kB", "binary, kB"], builds()),
     "copies": lambda build: table(["copy", "ns"], copies()),
+    "peer_times": lambda build: table(["sampler", "streaming", "cached", "with density, streaming", "with density, cached",
+                                       "times Mitsuba's", "A/A", "first call, s"], peer_times()),
+    "peer_angles": lambda build: peer_errors(peer_angles),
+    "peer_densities": lambda build: peer_errors(peer_densities),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),
 }

@@ -36,6 +36,7 @@ cap = (docs.ROOT / "kernels/vndf/ggx_dupuy2023.h").read_text("utf-8")
 assert docs.with_tables(spoilt(kernels, r"(\| `vndf_ggx_ndf\(.*?\| )(\d+)", r"\g<1>9\2"), build) == kernels
 assert docs.with_tables(spoilt(readme, r"(\| `ggx_sample_wm_dupuy2023` \| )[0-9.]+", r"\g<1>0.1"), build) == readme
 assert docs.with_tables(spoilt(bench, r"(\| `copy_40B` \| \d+, )(\d+)", r"\g<1>9\2"), build) == bench
+assert docs.with_tables(spoilt(bench, r"(\| Mitsuba GGX \| )[0-9.]+", r"\g<1>0.1"), build) == bench
 assert docs.with_files(spoilt(readme, r"kernel void sample_metal", "kernel void sample")) == readme
 assert docs.with_outputs(spoilt(host, r"0x1\.580024p-2", "0x1.580025p-2"), build) == host
 assert docs.with_accuracy(spoilt(cap, r"(// Accuracy: [^:]*: )\d+", r"\g<1>99"), build) == (cap, [])
