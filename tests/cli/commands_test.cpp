@@ -121,7 +121,8 @@ TEST_CASE("bench advises the cheapest form within an error, and refuses demands 
     const Folder folder;
     const std::string bench = "\"$clvndf\" --quiet bench --only dupuy2023/lean --repetitions 3 ";
     CHECK(shell(folder, bench + "--advise --error 0.1 >out 2>err") == 0);
-    CHECK(folder.read("out").find("GGX visible normals: none of those measured has an error within 0.10 eps.") !=
+    CHECK(folder.read("out").find(
+              "GGX visible normals: none of those measured has an error within 0.10 eps.") !=
           std::string::npos);
     CHECK(shell(folder, bench + "--advise --error 1e9 --domain front >out 2>err") == 0);
     CHECK(folder.read("out").find("GGX visible normals: vndf_ggx_sample_wm_dupuy2023 ") != std::string::npos);
