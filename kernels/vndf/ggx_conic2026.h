@@ -50,7 +50,7 @@ VNDF_FN struct vndf_impl_conic_cap vndf_impl_conic_cap_of(VNDF_REAL x, VNDF_REAL
     cap.x = x;
     cap.y = y;
     cap.l2 = VNDF_FMA(x, x, y * y);
-    cap.rcp_scale = vndf_impl_scale(scale);
+    cap.rcp_scale = vndf_impl_rcp_power(scale);
     VNDF_REAL height = vndf_impl_abs(z), r = VNDF_SQRT(VNDF_FMA(height, height, cap.l2 * cap.rcp_scale * cap.rcp_scale));
     cap.area = cap.l2 / (r + height);
     cap.p = cap.area * cap.rcp_scale * cap.rcp_scale;
@@ -142,7 +142,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     l.e2y = l.e1x * c.by;
     VNDF_REAL w2 = VNDF_FMA(c.y, l.e1x, -c.x * l.e1y);
     l.e2z = -w2;
-    VNDF_REAL gap = size * vndf_impl_scale(scale), m1 = VNDF_R(0.5) * (c.trace + gap);
+    VNDF_REAL gap = size * vndf_impl_rcp_power(scale), m1 = VNDF_R(0.5) * (c.trace + gap);
     VNDF_REAL rcp = VNDF_R(1.0) / (m1 * c.whole), rcp_whole = rcp * m1, m2 = c.product * (rcp * c.whole);
     VNDF_REAL g1 = VNDF_R(1.0) + m1, rcp_g2 = g1 * rcp_whole, rcp_g1 = (VNDF_R(1.0) + m2) * rcp_whole;
     l.s0 = c.poles * rcp_whole;
@@ -392,15 +392,16 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 // P2 in one step. Times 1 + m1. (x, y): the tangential part of v times a power of two that brings it near 1, azimuth 0
 // where there is none; tilt the power back, for mu = 1.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
-    alpha = vndf_impl_alpha(alpha);
+    // Twice, by two forms: operations on one number would be packed (impl/stretch.h).
+    VNDF_REAL alpha_x = vndf_impl_alpha(alpha), alpha_y = vndf_impl_alpha_y(alpha);
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     int above = wo.z > VNDF_R(0.0);
-    VNDF_REAL vx = alpha * wo.x, vy = alpha * wo.y, size = vndf_impl_abs(vx) + vndf_impl_abs(vy);
+    VNDF_REAL vx = alpha_x * wo.x, vy = alpha_y * wo.y, size = vndf_impl_abs(vx) + vndf_impl_abs(vy);
     VNDF_REAL scale = vndf_impl_scale(size), x = size > VNDF_R(0.0) ? vx * scale : VNDF_R(1.0), y = vy * scale;
     struct vndf_impl_conic_cap cap = vndf_impl_conic_cap_of(x, y, wo.z, scale);
     VNDF_REAL whole = vndf_impl_scale(size + (above ? wo.z : VNDF_R(0.0)));
     VNDF_REAL back = whole * cap.rcp_scale, z = above ? wo.z * whole : VNDF_R(1.0), weight = cap.l2 * back * back;
-    VNDF_REAL pole = z * (alpha * alpha);
+    VNDF_REAL pole = z * (alpha_x * alpha_x);
     struct vndf_impl_ratio mu = vndf_impl_cone_root(VNDF_R(1.0), pole - z, VNDF_FMA(z, pole, weight));
     VNDF_REAL unit = mu.den / mu.num, tilt = back * unit, a = pole * unit, b = VNDF_R(1.0) + a;
     z *= unit;
@@ -408,7 +409,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     VNDF_REAL w1 = cap.l2 * tilt, m1 = VNDF_FMA(w1 * tilt, rcp_b, a), g1 = VNDF_R(1.0) + m1;
     VNDF_REAL area = cap.area * VNDF_FMA(VNDF_R(1.0) + d.rest, cap.p, cap.gap);
     VNDF_REAL radius = VNDF_SQRT(d.u2 * (above ? spread : area)), ex = radius * d.cosine, ey = radius * d.sine;
-    VNDF_REAL x2 = d.u2 * (d.cosine * d.cosine), y2 = d.u2 * (d.sine * d.sine);
+    VNDF_REAL x2 = d.u2 * d.cosine * d.cosine, y2 = d.u2 * (d.sine * d.sine);
     VNDF_REAL m0 = VNDF_SQRT(VNDF_FMA(b * m1, d.rest + y2, a * g1 * x2));
     VNDF_REAL along = VNDF_FMA(m1 * w1, ey, m0);
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
@@ -420,8 +421,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     h.y = VNDF_FMA(in, y, across * x);
     h.z = VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0));
     VNDF_REAL visible = VNDF_R(2.0) / (g1 * unit * whole);  // sqrt(poles) is no root here
-    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_half(cap, ex, ey, d.rest), wo.x, wo.y, wo.z, alpha,
-                                   alpha, above ? visible : cap.p);
+    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_half(cap, ex, ey, d.rest), wo.x, wo.y, wo.z, alpha_x,
+                                   alpha_y, above ? visible : cap.p);
 }
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.

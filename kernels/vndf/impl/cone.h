@@ -25,6 +25,12 @@ struct vndf_impl_cone {
     VNDF_REAL unit;           // 1 / mu, for the v given
 };
 
+// 1 / x for a power of two that vndf_impl_scale gave. (Two calls of that would be packed, see impl/stretch.h.)
+VNDF_FN VNDF_REAL vndf_impl_rcp_power(VNDF_REAL x) {
+    VNDF_INT twice = (VNDF_INT)(2 * VNDF_IMPL_EXPONENT_BIAS) << VNDF_IMPL_MANTISSA_BITS;
+    return VNDF_AS_REAL(twice - VNDF_AS_INT(x));
+}
+
 // v times a power of two that brings |x| + |y| + z near 1: above the surface. Behind it, where this is not used, z is 1,
 // and the scale that of x and y.
 struct vndf_impl_cone_view {
