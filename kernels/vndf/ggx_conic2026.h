@@ -34,61 +34,58 @@ VNDF_FN struct vndf_impl_disk vndf_impl_disk_of(VNDF_REAL2 u) {
     return d;
 }
 
-// A stretched normal of any length.
+// Behind the surface: the plain cap, which wastes nothing there. (x, y): the tangential part of v times a power of two that
+// brings it near 1, 1 / back; l2 its square, area = l2 / (r + |z|), p = r + z in the scale of v, gap = -2 z.
+struct vndf_impl_conic_cap {
+    VNDF_REAL x, y, l2, area, p, gap, back;
+};
+
+// The squared radius of the cap's reflections about z, over u2.
+VNDF_FN VNDF_REAL vndf_impl_conic_cap_spread(struct vndf_impl_conic_cap c, VNDF_REAL rest) {
+    return VNDF_FMA(rest * c.area, c.p, c.l2);
+}
+
+// A stretched normal, and one by its parts along (x, y) and across it, all of any length.
 struct vndf_impl_conic_normal {
     VNDF_REAL x, y, z;
 };
-
-// Behind the surface: the plain cap, where nothing is wasted. (x, y): the tangential part of v times a power of two that
-// brings it near 1, area = |(x, y)|^2 / (r + |z|); with that power taken out, p = r + z, the height of the cap, and
-// gap = r - z - p.
-struct vndf_impl_conic_cap {
-    VNDF_REAL x, y, l2, area, p, gap, rcp_scale;
+struct vndf_impl_conic_turned {
+    VNDF_REAL in, across, z;
 };
-VNDF_FN struct vndf_impl_conic_cap vndf_impl_conic_cap_of(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL scale) {
-    struct vndf_impl_conic_cap cap;
-    cap.x = x;
-    cap.y = y;
-    cap.l2 = VNDF_FMA(x, x, y * y);
-    cap.rcp_scale = vndf_impl_rcp_power(scale);
-    VNDF_REAL height = vndf_impl_abs(z), r = VNDF_SQRT(VNDF_FMA(height, height, cap.l2 * cap.rcp_scale * cap.rcp_scale));
-    cap.area = cap.l2 / (r + height);
-    cap.p = cap.area * cap.rcp_scale * cap.rcp_scale;
-    cap.gap = VNDF_R(2.0) * height;
-    return cap;
-}
-
-// The cap's half vector, (ex, ey) the tangential part of the reflection. Where it nearly vanishes, opposite to (x, y), it
-// is taken times l2 - d, d = (ex, ey) . (x, y), by sums of positive terms: |e|^2 - l2 = -rest area (gap + rest p).
-VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_cap_half(struct vndf_impl_conic_cap c, VNDF_REAL ex,
-                                                               VNDF_REAL ey, VNDF_REAL rest) {
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_turn(struct vndf_impl_conic_turned m, VNDF_REAL x,
+                                                           VNDF_REAL y) {
     struct vndf_impl_conic_normal h;
-    VNDF_REAL d = VNDF_FMA(ex, c.x, ey * c.y), across = VNDF_FMA(ey, c.x, -ex * c.y), k = c.l2 - d;
-    VNDF_REAL height = rest * c.area, lacking = height * VNDF_FMA(rest, c.p, c.gap);
-    int opposite = d < VNDF_R(0.0);
-    VNDF_REAL along = opposite ? VNDF_FMA(across, across, c.l2 * lacking) : VNDF_R(1.0);
-    VNDF_REAL turn = opposite ? k * across : VNDF_R(0.0);
-    h.x = VNDF_FMA(along, c.x, VNDF_FMA(-turn, c.y, opposite ? VNDF_R(0.0) : ex));
-    h.y = VNDF_FMA(along, c.y, VNDF_FMA(turn, c.x, opposite ? VNDF_R(0.0) : ey));
-    h.z = height * c.rcp_scale * (opposite ? k * c.l2 : VNDF_R(1.0));
+    h.x = VNDF_FMA(m.in, x, -m.across * y);
+    h.y = VNDF_FMA(m.in, y, m.across * x);
+    h.z = m.z;
     return h;
 }
 
-// The unit reflection of wo about the unstretched normal, and its density D / (2 n), n = 2
-// sigma_vis of wo as given. Above the surface the normal is `front`, behind it `behind`, a half vector of the cap.
-VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal front,
-                                                        struct vndf_impl_conic_normal behind, VNDF_REAL wo_x,
+// The cap's half vector, (ex, ey) the tangential part of the reflection. Where it nearly vanishes, opposite to (x, y), it
+// is taken l2 - d times as long, d = (ex, ey) . (x, y), and l2^2 - d^2 as a sum of positive terms.
+VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_conic_cap c, VNDF_REAL ex,
+                                                               VNDF_REAL ey, VNDF_REAL rest) {
+    struct vndf_impl_conic_turned h;
+    VNDF_REAL d = VNDF_FMA(ex, c.x, ey * c.y), across = VNDF_FMA(ey, c.x, -ex * c.y), height = rest * c.area;
+    int opposite = d < VNDF_R(0.0);
+    VNDF_REAL factor = opposite ? c.l2 - d : VNDF_R(1.0);
+    VNDF_REAL lacking = c.l2 * height * VNDF_FMA(rest, c.p, c.gap);
+    h.in = opposite ? VNDF_FMA(across, across, lacking) : c.l2 + d;
+    h.across = factor * across;
+    h.z = factor * (height * (c.back * c.l2));
+    return h;
+}
+
+// The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as given.
+VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
                                                         VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y, VNDF_REAL n) {
     struct vndf_impl_sample o;
-    int above = wo_z > VNDF_R(0.0);
-    VNDF_REAL hx = above ? front.x : behind.x, hy = above ? front.y : behind.y,
-              hz = above ? front.z : behind.z;
-    struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, hx, hy, hz, alpha_x, alpha_y);
-    // The height is positive, and rounding denies it within its error of the horizon alone: mirrored there, which keeps
-    // the length, and never 0.
+    struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, h.x, h.y, h.z, alpha_x, alpha_y);
+    // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored there,
+    // which keeps the length, and never 0.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON);
-    VNDF_REAL z = above ? height : m.z;
+    VNDF_REAL z = wo_z > VNDF_R(0.0) ? height : m.z;
     // Only the direction of wo counts: the length that the mirror kept is divided out.
     VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
     o.x = m.x * rcp;
@@ -105,11 +102,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_n
 // its members are internals.
 struct vndf_ggx_conic2026 {
     VNDF_REAL wo_x, wo_y, wo_z;
-    VNDF_REAL alpha_x, alpha_y;  // clamped
-    VNDF_REAL twice_sigma;       // of sigma_vis
-    VNDF_REAL spread;            // of the squared radius of the disk
-    VNDF_REAL x, y, z, length2;  // v and its square, mu = 1
-    VNDF_REAL e, f;              // (e, f, 1) is parallel to e0
+    VNDF_REAL alpha_x, alpha_y;              // clamped
+    VNDF_REAL twice_sigma;                   // of sigma_vis
+    VNDF_REAL spread;                        // of the squared radius of the disk
+    VNDF_REAL x, y, z, length2;              // v and its square, mu = 1
+    VNDF_REAL e, f;                          // (e, f, 1) is parallel to e0
     VNDF_REAL e1x, e1y, e1z, e2x, e2y, e2z;  // parallel to e1 and e2
     VNDF_REAL step_1, step_2;                // from a radius times a direction to parts along e1 and e2
     VNDF_REAL along_1, along_2;              // v . e1 and v . e2 of these
@@ -117,7 +114,7 @@ struct vndf_ggx_conic2026 {
     VNDF_REAL dual_1, dual_2;                // from the product with e1 or e2 to the part along it
     VNDF_REAL rim_0, rim_1;
     VNDF_REAL slope_0, slope_2, share, bend;
-    VNDF_REAL unit;                          // 1 / mu of v = alpha wo
+    VNDF_REAL unit;  // 1 / mu of v = alpha wo
     struct vndf_impl_conic_cap cap;
 };
 
@@ -126,7 +123,7 @@ struct vndf_ggx_conic2026 {
 // where wo crosses a plane in which s1 vanishes, and turn with wo for alpha_x = alpha_y.
 VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026 l, struct vndf_impl_cone c) {
     VNDF_REAL scale = vndf_impl_scale(c.trace), xx = c.xx * scale, yy = c.yy * scale;
-    VNDF_REAL poles = c.z * ((l.alpha_x - l.alpha_y) * (l.alpha_x + l.alpha_y));  // a_x - a_y
+    VNDF_REAL poles = c.z * ((l.alpha_x - l.alpha_y) * (l.alpha_x + l.alpha_y));  // ax - ay
     // A round cone has no axes: 1e-18 takes x and y, and nothing from any other.
     VNDF_REAL d = VNDF_FMA(poles, scale, xx - yy) + VNDF_R(1e-18);
     VNDF_REAL size = VNDF_SQRT(VNDF_FMA(d, d, VNDF_R(4.0) * xx * yy)), larger = size + vndf_impl_abs(d);
@@ -147,12 +144,13 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     VNDF_REAL g1 = VNDF_R(1.0) + m1, rcp_g2 = g1 * rcp_whole, rcp_g1 = (VNDF_R(1.0) + m2) * rcp_whole;
     l.s0 = c.poles * rcp_whole;
     l.dual_1 = spread * rcp_g1;
-    l.dual_2 = spread * c.rcp_poles * rcp_g2;
+    VNDF_REAL rcp_2 = c.rcp_poles * rcp_g2;
+    l.dual_2 = spread * rcp_2;
     l.along_1 = m1 * w1;
     l.along_2 = m2 * w2;
     l.s2 = l.along_2 * l.dual_2;
     l.step_1 = w1 < VNDF_R(0.0) ? -rcp_g1 : rcp_g1;
-    VNDF_REAL step_2 = VNDF_SQRT(c.poles) * (c.rcp_poles * rcp_g2);
+    VNDF_REAL step_2 = VNDF_SQRT(c.poles) * rcp_2;
     l.step_2 = w1 < VNDF_R(0.0) ? -step_2 : step_2;
     l.rim_0 = vndf_impl_max(l.s0 * (m2 * rcp_g2), VNDF_R(1e-30));  // so that M > 0
     l.rim_1 = l.s0 * (gap * rcp_whole);
@@ -162,6 +160,19 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     l.bend = VNDF_FMA(g1, l.s0, l.slope_2 * l.s2);
     l.spread = spread;
     return l;
+}
+
+VNDF_FN struct vndf_impl_conic_cap vndf_impl_conic_cap_of(struct vndf_impl_cone_view v, VNDF_REAL z) {
+    struct vndf_impl_conic_cap cap;
+    cap.x = v.x;
+    cap.y = v.y;
+    cap.l2 = VNDF_FMA(v.x, v.x, v.y * v.y);
+    cap.back = vndf_impl_rcp_power(v.scale);
+    VNDF_REAL back2 = cap.back * cap.back;
+    cap.area = cap.l2 / (VNDF_SQRT(VNDF_FMA(z, z, cap.l2 * back2)) + vndf_impl_abs(z));
+    cap.p = cap.area * back2;
+    cap.gap = VNDF_R(-2.0) * z;
+    return cap;
 }
 
 // The lobe of wo and alpha: all that does not depend on u.
@@ -186,7 +197,9 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_RE
     l.e = c.e;
     l.f = c.f;
     l.unit = c.unit;
-    l.cap = vndf_impl_conic_cap_of(above ? VNDF_R(0.0) : v.x, above ? VNDF_R(0.0) : v.y, wo.z, v.scale);
+    l.cap = vndf_impl_conic_cap_of(v, wo.z);
+    l.cap.x = above ? VNDF_R(0.0) : l.cap.x;
+    l.cap.y = above ? VNDF_R(0.0) : l.cap.y;
     l.twice_sigma = above ? VNDF_R(2.0) * vndf_impl_cone_area(c) : l.cap.p;
     return l;
 }
@@ -218,11 +231,16 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     int above = l.wo_z > VNDF_R(0.0);
-    VNDF_REAL cap = l.cap.area * VNDF_FMA(VNDF_R(1.0) + d.rest, l.cap.p, l.cap.gap);
-    VNDF_REAL radius = VNDF_SQRT(d.u2 * (above ? l.spread : cap)), ex = radius * d.cosine, ey = radius * d.sine;
-    return vndf_impl_conic_reflect(vndf_impl_conic_normal_of(l, ex, ey, d.u2 * (d.sine * d.sine), d.rest),
-                                   vndf_impl_conic_cap_half(l.cap, ex, ey, d.rest), l.wo_x, l.wo_y, l.wo_z,
-                                   l.alpha_x, l.alpha_y, l.twice_sigma);
+    VNDF_REAL spread = above ? l.spread : vndf_impl_conic_cap_spread(l.cap, d.rest);
+    VNDF_REAL radius = VNDF_SQRT(d.u2 * spread), ex = radius * d.cosine, ey = radius * d.sine;
+    struct vndf_impl_conic_normal front =
+        vndf_impl_conic_normal_of(l, ex, ey, d.u2 * (d.sine * d.sine), d.rest);
+    struct vndf_impl_conic_normal h =
+        vndf_impl_conic_turn(vndf_impl_conic_cap_half(l.cap, ex, ey, d.rest), l.cap.x, l.cap.y);
+    h.x = above ? front.x : h.x;
+    h.y = above ? front.y : h.y;
+    h.z = above ? front.z : h.z;
+    return vndf_impl_conic_reflect(h, l.wo_x, l.wo_y, l.wo_z, l.alpha_x, l.alpha_y, l.twice_sigma);
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_conic2026, for many u and one wo and alpha.
@@ -269,7 +287,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_with_pdf(VNDF_REAL3 wo, VNDF_REA
 VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(VNDF_REAL3 w, VNDF_REAL alpha_x, VNDF_REAL alpha_y) {
     struct vndf_impl_cone_view v = vndf_impl_cone_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     VNDF_REAL visible = VNDF_R(2.0) * vndf_impl_cone_area(vndf_impl_cone_of(v, alpha_x, alpha_y));
-    VNDF_REAL behind = vndf_impl_conic_cap_of(v.x, v.y, w.z, v.scale).p;
+    VNDF_REAL behind = vndf_impl_conic_cap_of(v, w.z).p;
     return w.z > VNDF_R(0.0) ? visible : behind;
 }
 
@@ -282,7 +300,8 @@ VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(VNDF_REAL3 w, VNDF_REAL alpha_x,
 // Accuracy: 16 eps; double 21.
 //     Double against quadrature along the horizon: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_visible(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL sigma = VNDF_R(0.5) * vndf_impl_twice_sigma_visible(w, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
+    VNDF_REAL sigma =
+        VNDF_R(0.5) * vndf_impl_twice_sigma_visible(w, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
     return vndf_impl_finite(sigma) + vndf_impl_zero(w.x, w.y, w.z);
 }
 
@@ -311,8 +330,8 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
-    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, vndf_impl_twice_sigma_visible(wo, alpha_x, alpha_y), alpha_x,
-                                                 alpha_y);
+    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, vndf_impl_twice_sigma_visible(wo, alpha_x, alpha_y),
+                                                 alpha_x, alpha_y);
     return wi.z > VNDF_R(0.0) || wo.z <= VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
@@ -332,7 +351,8 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
     VNDF_REAL m0 = l.s0 * VNDF_FMA(l.e, m.x, VNDF_FMA(l.f, m.y, m.z));
     VNDF_REAL m1 = l.dual_1 * VNDF_FMA(l.e1x, m.x, VNDF_FMA(l.e1y, m.y, l.e1z * m.z));
     VNDF_REAL m2 = l.dual_2 * VNDF_FMA(l.e2x, m.x, VNDF_FMA(l.e2y, m.y, l.e2z * m.z));
-    VNDF_REAL slope = VNDF_FMA(l.slope_0, m0, l.slope_2 * m2), root2 = VNDF_FMA(slope, slope, -l.bend * height);
+    VNDF_REAL slope = VNDF_FMA(l.slope_0, m0, l.slope_2 * m2),
+              root2 = VNDF_FMA(slope, slope, -l.bend * height);
     VNDF_REAL root = VNDF_SQRT(root2 > VNDF_R(0.0) ? root2 : VNDF_R(0.0)), sum = slope + root;
     VNDF_REAL tau = sum > VNDF_R(0.0) ? height / sum : VNDF_R(0.0);
     // P2, and what was left of the second chord.
@@ -389,40 +409,50 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 // --- One alpha ---
 
 // For alpha_x = alpha_y = alpha the plane of incidence holds e0 and e1, and v has no part along e2: mu by one quadratic,
-// P2 in one step. Times 1 + m1. (x, y): the tangential part of v times a power of two that brings it near 1, azimuth 0
-// where there is none; tilt the power back, for mu = 1.
+// P2 in one step. All normals in the azimuth's frame, and times what keeps divisions out. (x, y): the tangential part of
+// v, scaled near 1; azimuth 0 where there is none. Above the surface the scale goes no farther than z can follow.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     // Twice, by two forms: operations on one number would be packed (impl/stretch.h).
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha), alpha_y = vndf_impl_alpha_y(alpha);
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     int above = wo.z > VNDF_R(0.0);
     VNDF_REAL vx = alpha_x * wo.x, vy = alpha_y * wo.y, size = vndf_impl_abs(vx) + vndf_impl_abs(vy);
-    VNDF_REAL scale = vndf_impl_scale(size), x = size > VNDF_R(0.0) ? vx * scale : VNDF_R(1.0), y = vy * scale;
-    struct vndf_impl_conic_cap cap = vndf_impl_conic_cap_of(x, y, wo.z, scale);
-    VNDF_REAL whole = vndf_impl_scale(size + (above ? wo.z : VNDF_R(0.0)));
-    VNDF_REAL back = whole * cap.rcp_scale, z = above ? wo.z * whole : VNDF_R(1.0), weight = cap.l2 * back * back;
-    VNDF_REAL pole = z * (alpha_x * alpha_x);
-    struct vndf_impl_ratio mu = vndf_impl_cone_root(VNDF_R(1.0), pole - z, VNDF_FMA(z, pole, weight));
-    VNDF_REAL unit = mu.den / mu.num, tilt = back * unit, a = pole * unit, b = VNDF_R(1.0) + a;
+    VNDF_REAL scale = vndf_impl_min(vndf_impl_scale(size), above ? VNDF_R(281474976710656.0) : VNDF_REAL_MAX);
+    VNDF_REAL x = size > VNDF_R(0.0) ? vx * scale : VNDF_R(1.0), y = vy * scale, l2 = VNDF_FMA(x, x, y * y);
+    VNDF_REAL back = vndf_impl_rcp_power(scale), back2 = back * back;
+    // One root and one quotient for 1 / mu, from mu^2 + (pole - z) mu = z pole + l2, and for l2 / (r + |z|) behind.
+    VNDF_REAL z = above ? wo.z * scale : VNDF_R(1.0), pole = z * (alpha_x * alpha_x),
+              c = VNDF_R(4.0) * VNDF_FMA(z, pole, l2);
+    VNDF_REAL b = above ? pole - z : wo.z;
+    VNDF_REAL sum = VNDF_SQRT(VNDF_FMA(b, b, above ? c : l2 * back2)) + vndf_impl_abs(b);
+    int rising = b > VNDF_R(0.0);
+    VNDF_REAL quotient = (above ? (rising ? sum + sum : VNDF_R(2.0)) : l2) / (rising ? c : sum);
+    struct vndf_impl_conic_cap cap;
+    cap.x = x;
+    cap.y = y;
+    cap.l2 = l2;
+    cap.area = quotient;
+    cap.p = quotient * back2;
+    cap.gap = VNDF_R(-2.0) * wo.z;
+    cap.back = back;
+    VNDF_REAL unit = quotient, a = pole * unit, bx = VNDF_R(1.0) + a, w1 = l2 * unit;
     z *= unit;
-    VNDF_REAL spread = VNDF_R(1.0) / (b * cap.l2), rcp_b = cap.l2 * spread;
-    VNDF_REAL w1 = cap.l2 * tilt, m1 = VNDF_FMA(w1 * tilt, rcp_b, a), g1 = VNDF_R(1.0) + m1;
-    VNDF_REAL area = cap.area * VNDF_FMA(VNDF_R(1.0) + d.rest, cap.p, cap.gap);
-    VNDF_REAL radius = VNDF_SQRT(d.u2 * (above ? spread : area)), ex = radius * d.cosine, ey = radius * d.sine;
-    VNDF_REAL x2 = d.u2 * d.cosine * d.cosine, y2 = d.u2 * (d.sine * d.sine);
-    VNDF_REAL m0 = VNDF_SQRT(VNDF_FMA(b * m1, d.rest + y2, a * g1 * x2));
+    VNDF_REAL spread = VNDF_R(1.0) / (bx * l2), rcp = l2 * spread, tilt2 = w1 * unit, xx = tilt2 * rcp;
+    VNDF_REAL m1 = a + xx, g1 = bx + xx, m2 = a * g1;
+    VNDF_REAL radius = VNDF_SQRT(d.u2 * (above ? spread : vndf_impl_conic_cap_spread(cap, d.rest)));
+    VNDF_REAL ex = radius * d.cosine, ey = radius * d.sine;
+    VNDF_REAL m0 = VNDF_SQRT(VNDF_FMA(m2 + xx, d.rest, d.u2 * VNDF_FMA(xx * d.sine, d.sine, m2)));
     VNDF_REAL along = VNDF_FMA(m1 * w1, ey, m0);
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
-    VNDF_REAL left = g1 * d.rest, length2 = VNDF_FMA(z, z, w1 * tilt);
-    VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, length2 * left)));
-    VNDF_REAL in = VNDF_FMA(VNDF_FMA(m0, rcp_b, tau), tilt, ey * b), across = g1 * ex;
-    struct vndf_impl_conic_normal h;
-    h.x = VNDF_FMA(in, x, -across * y);
-    h.y = VNDF_FMA(in, y, across * x);
-    h.z = VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0));
-    VNDF_REAL visible = VNDF_R(2.0) / (g1 * unit * whole);  // sqrt(poles) is no root here
-    return vndf_impl_conic_reflect(h, vndf_impl_conic_cap_half(cap, ex, ey, d.rest), wo.x, wo.y, wo.z, alpha_x,
-                                   alpha_y, above ? visible : cap.p);
+    VNDF_REAL left = g1 * d.rest;
+    VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, VNDF_FMA(z, z, tilt2) * left)));
+    struct vndf_impl_conic_turned m = vndf_impl_conic_cap_half(cap, ex, ey, d.rest);
+    m.in = above ? VNDF_FMA(VNDF_FMA(m0, rcp, tau), unit, ey * bx) : m.in;
+    m.across = above ? g1 * ex : m.across;
+    m.z = above ? VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0)) : m.z;
+    VNDF_REAL visible = VNDF_R(2.0) / (g1 * unit * scale);  // sqrt(poles) is no root here
+    return vndf_impl_conic_reflect(vndf_impl_conic_turn(m, x, y), wo.x, wo.y, wo.z, alpha_x, alpha_y,
+                                   above ? visible : cap.p);
 }
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.

@@ -15,14 +15,14 @@
 // With A_x = z alpha_x^2, the eigenvalue mu is the positive root of mu = z + x^2 / (mu + A_x) + y^2 / (mu + A_y). m1 and m2
 // are those of the two by two matrix diag(A_x, A_y) + w w^T, w = (x / sqrt(1 + A_x), y / sqrt(1 + A_y)).
 struct vndf_impl_cone {
-    VNDF_REAL x, y, z;        // v / mu
-    VNDF_REAL ax, ay;         // A_x / mu, A_y / mu
-    VNDF_REAL bx, by;         // 1 + ax, 1 + ay
-    VNDF_REAL poles, rcp_poles;  // their product
-    VNDF_REAL e, f;           // x / bx, y / by: (e, f, 1) is parallel to e0
-    VNDF_REAL xx, yy;         // squares of w
+    VNDF_REAL x, y, z;                // v / mu
+    VNDF_REAL ax, ay;                 // A_x / mu, A_y / mu
+    VNDF_REAL bx, by;                 // 1 + ax, 1 + ay
+    VNDF_REAL poles, rcp_poles;       // their product
+    VNDF_REAL e, f;                   // x / bx, y / by: (e, f, 1) is parallel to e0
+    VNDF_REAL xx, yy;                 // squares of w
     VNDF_REAL trace, product, whole;  // m1 + m2, m1 m2, (1 + m1)(1 + m2)
-    VNDF_REAL unit;           // 1 / mu, for the v given
+    VNDF_REAL unit;                   // 1 / mu, for the v given
 };
 
 // 1 / x for a power of two that vndf_impl_scale gave. (Two calls of that would be packed, see impl/stretch.h.)
@@ -61,7 +61,8 @@ VNDF_FN struct vndf_impl_ratio vndf_impl_cone_root(VNDF_REAL a, VNDF_REAL b, VND
 }
 
 // mu, |x| + |y| + z near 1, within 7 %, never above it: around the guess u the term of the larger pole is taken for a line.
-VNDF_FN struct vndf_impl_ratio vndf_impl_cone_start(VNDF_REAL u, VNDF_REAL x2, VNDF_REAL y2, VNDF_REAL z, VNDF_REAL ax, VNDF_REAL ay) {
+VNDF_FN struct vndf_impl_ratio vndf_impl_cone_start(VNDF_REAL u, VNDF_REAL x2, VNDF_REAL y2, VNDF_REAL z,
+                                                    VNDF_REAL ax, VNDF_REAL ay) {
     int swap = ax < ay;
     VNDF_REAL larger = swap ? ay : ax, least = swap ? ax : ay, top = swap ? y2 : x2, rest = swap ? x2 : y2;
     VNDF_REAL b = u + larger, b2 = b * b, slope = b2 + top, value = VNDF_FMA(z, b2, top * (b + u));
@@ -69,8 +70,8 @@ VNDF_FN struct vndf_impl_ratio vndf_impl_cone_start(VNDF_REAL u, VNDF_REAL x2, V
 }
 
 // Newton's step: sums of positive terms.
-VNDF_FN struct vndf_impl_ratio vndf_impl_cone_newton(VNDF_REAL mu, VNDF_REAL x2, VNDF_REAL y2,
-                                                              VNDF_REAL z, VNDF_REAL ax, VNDF_REAL ay) {
+VNDF_FN struct vndf_impl_ratio vndf_impl_cone_newton(VNDF_REAL mu, VNDF_REAL x2, VNDF_REAL y2, VNDF_REAL z,
+                                                     VNDF_REAL ax, VNDF_REAL ay) {
     struct vndf_impl_ratio step;
     VNDF_REAL bx = mu + ax, by = mu + ay, wx = x2 * by, wy = y2 * bx, p = bx * by;
     VNDF_REAL n2 = VNDF_FMA(wx, by, wy * bx);
