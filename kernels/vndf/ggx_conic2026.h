@@ -2,14 +2,15 @@
 //
 // Source: this package; derivation, figures and how to verify it: ggx_conic2026.md. No earlier publication was found.
 //     In the axes of the cone of impl/cone.h, the stretched normals that reflect above the horizon project onto
-//     the ellipse (m1 / p)^2 + (m2 / q)^2 < 1. Three straight moves take the point (p Y, q X) of it to a normal m, and two
-//     of them are shears that preserve the projected area s . m:
+//     the ellipse (m1 / p)^2 + (m2 / q)^2 < 1. Three straight moves take the point (p Y, q X) of it to a normal m,
+//     and two of them are shears that preserve the projected area s . m:
 //       P  = (M, p Y, q X)  on the chord between the two rim points of the slice m1 = p Y, M = m0 at both;
 //       P2 = P + epsilon s' on the chord between the two rim points with that component across s', s' = s without s1;
 //       m  = P2 + tau s     on the sphere.
 //     All three steps are roots of quadratics, written as sums of positive terms.
-// Symbols: those of impl/cone.h; s = (s0, s1, s2) in the axes e0, e1, e2, n = |s'|, c0 = s0 / n, c2 = s2 / n,
-//     p^2 = mu / (mu + mu1), q^2 = mu / (mu + mu2), rho = (mu1 - mu2) / (mu + mu1), a = c0^2 + rho c2^2.
+//     Here every vector is taken along axes of any length, and with them the roots of their lengths go.
+// Symbols: those of impl/cone.h, where mu is 1; v = (v0, v1, v2) in the axes e0, e1, e2; p^2 = 1 / (1 + m1),
+//     q^2 = 1 / (1 + m2). In the proof of ggx_conic2026.md v is the unit vector s.
 #ifndef VNDF_GGX_CONIC2026_H
 #define VNDF_GGX_CONIC2026_H
 
@@ -19,8 +20,8 @@
 
 // --- What both forms share ---
 
-// A point of the unit disk, (cos, sin)(2 pi u1) sqrt(u2), by its parts: x and y are those of the direction times
-// `radius`, rest = 1 - u2.
+// A point (X, Y) = sqrt(u2) (cosine, sine) of the unit disk by its parts; rest = 1 - u2. The root is left to where it
+// is scaled.
 struct vndf_impl_disk {
     VNDF_REAL cosine, sine, u2, rest;
 };
@@ -34,8 +35,8 @@ VNDF_FN struct vndf_impl_disk vndf_impl_disk_of(VNDF_REAL2 u) {
     return d;
 }
 
-// Behind the surface: the plain cap, which wastes nothing there. (x, y): the tangential part of v times a power of two that
-// brings it near 1, 1 / back; l2 its square, area = l2 / (r + |z|), p = r + z in the scale of v, gap = -2 z.
+// Behind the surface: the plain cap, which wastes nothing there. (x, y): the tangential part of v times a power of
+// two that brings it near 1, 1 / back; l2 its square, area = l2 / (r + |z|); p = r + z in the scale of v, gap = -2 z.
 struct vndf_impl_conic_cap {
     VNDF_REAL x, y, l2, area, p, gap, back;
 };
@@ -61,8 +62,8 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_turn(struct vndf_impl_coni
     return h;
 }
 
-// The cap's half vector, (ex, ey) the tangential part of the reflection. Where it nearly vanishes, opposite to (x, y), it
-// is taken l2 - d times as long, d = (ex, ey) . (x, y), and l2^2 - d^2 as a sum of positive terms.
+// The cap's half vector times l2, (ex, ey) the tangential part of the reflection. Where it nearly vanishes, opposite
+// to (x, y), it is taken l2 - d times as long, d = (ex, ey) . (x, y), and l2^2 - d^2 as a sum of positive terms.
 VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_conic_cap c, VNDF_REAL ex,
                                                                VNDF_REAL ey, VNDF_REAL rest) {
     struct vndf_impl_conic_turned h;
@@ -76,14 +77,15 @@ VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_
     return h;
 }
 
-// The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as given.
+// The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as
+// given.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
                                                         VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y, VNDF_REAL n) {
     struct vndf_impl_sample o;
     struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, h.x, h.y, h.z, alpha_x, alpha_y);
-    // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored there,
-    // which keeps the length, and never 0.
+    // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored
+    // there, which keeps the length, and never 0.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON);
     VNDF_REAL z = wo_z > VNDF_R(0.0) ? height : m.z;
     // Only the direction of wo counts: the length that the mirror kept is divided out.
@@ -118,9 +120,10 @@ struct vndf_ggx_conic2026 {
     struct vndf_impl_conic_cap cap;
 };
 
-// e1 and e2 by a half turn: the eigenvectors (cos, sin), (-sin, cos) of the two by two matrix of impl/cone.h are those of
-// Q as (sqrt(bx) cos, sqrt(by) sin, .), the third component across e0. The signs are those of s1 >= 0: the axes jump
-// where wo crosses a plane in which s1 vanishes, and turn with wo for alpha_x = alpha_y.
+// e1 and e2 by a half turn: an eigenvector (c, s) of the two by two matrix of impl/cone.h is one of Q as
+// (sqrt(bx) c, sqrt(by) s, .), the third component across e0. The larger of c and s is formed as a sum; e2 = e0 x e1.
+// The signs are those of v1 >= 0: the axes jump where wo crosses a plane in which v1 vanishes, and turn with wo for
+// alpha_x = alpha_y.
 VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026 l, struct vndf_impl_cone c) {
     VNDF_REAL scale = vndf_impl_scale(c.trace), xx = c.xx * scale, yy = c.yy * scale;
     VNDF_REAL poles = c.z * ((l.alpha_x - l.alpha_y) * (l.alpha_x + l.alpha_y));  // ax - ay
@@ -342,7 +345,7 @@ struct vndf_impl_disk_square {
     VNDF_REAL x, y, u2;
 };
 
-// The three moves backwards: each length is the root that the map takes, from the normal's side. twice = 2 v . m;
+// The three moves backwards: each length is the root that the map takes, from the normal's side. twice = 2 v . m,
 // height = m^T Q m >= 0.
 VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_conic2026 l,
                                                             struct vndf_impl_conic_normal m, VNDF_REAL twice,
@@ -408,19 +411,20 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 
 // --- One alpha ---
 
-// For alpha_x = alpha_y = alpha the plane of incidence holds e0 and e1, and v has no part along e2: mu by one quadratic,
-// P2 in one step. All normals in the azimuth's frame, and times what keeps divisions out. (x, y): the tangential part of
-// v, scaled near 1; azimuth 0 where there is none. Above the surface the scale goes no farther than z can follow.
+// For alpha_x = alpha_y = alpha the plane of incidence holds e0 and e1, and v has no part along e2: mu by one
+// quadratic, P2 in one step. The normal is 1 + m1 long. (x, y): the tangential part of v, scaled near 1, azimuth 0
+// where there is none; above the surface no larger than z can follow.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     // Twice, by two forms: operations on one number would be packed (impl/stretch.h).
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha), alpha_y = vndf_impl_alpha_y(alpha);
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     int above = wo.z > VNDF_R(0.0);
     VNDF_REAL vx = alpha_x * wo.x, vy = alpha_y * wo.y, size = vndf_impl_abs(vx) + vndf_impl_abs(vy);
-    VNDF_REAL scale = vndf_impl_min(vndf_impl_scale(size), above ? VNDF_R(281474976710656.0) : VNDF_REAL_MAX);
-    VNDF_REAL x = size > VNDF_R(0.0) ? vx * scale : VNDF_R(1.0), y = vy * scale, l2 = VNDF_FMA(x, x, y * y);
+    VNDF_REAL most = VNDF_DOUBLE ? VNDF_R(1.2676506002282294e30) : VNDF_R(68719476736.0);  // 2^100, 2^36
+    VNDF_REAL scale = vndf_impl_min(vndf_impl_scale(size), above ? most : VNDF_REAL_MAX);
+    VNDF_REAL x = size > VNDF_R(0.0) ? vx * scale : VNDF_R(1e-6), y = vy * scale, l2 = VNDF_FMA(x, x, y * y);
     VNDF_REAL back = vndf_impl_rcp_power(scale), back2 = back * back;
-    // One root and one quotient for 1 / mu, from mu^2 + (pole - z) mu = z pole + l2, and for l2 / (r + |z|) behind.
+    // One root and one quotient: above the surface 1 / mu, of mu^2 + (pole - z) mu = z pole + l2; else l2 / (r + |z|).
     VNDF_REAL z = above ? wo.z * scale : VNDF_R(1.0), pole = z * (alpha_x * alpha_x),
               c = VNDF_R(4.0) * VNDF_FMA(z, pole, l2);
     VNDF_REAL b = above ? pole - z : wo.z;
