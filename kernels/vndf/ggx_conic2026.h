@@ -106,7 +106,7 @@ struct vndf_ggx_conic2026 {
     VNDF_REAL wo_x, wo_y, wo_z;
     VNDF_REAL alpha_x, alpha_y;              // clamped
     VNDF_REAL twice_sigma;                   // of sigma_vis
-    VNDF_REAL spread;                        // of the squared radius of the disk
+    VNDF_REAL spread, rcp_spread;            // the squared radius of the disk
     VNDF_REAL x, y, z, length2;              // v and its square, mu = 1
     VNDF_REAL e, f;                          // (e, f, 1) is parallel to e0
     VNDF_REAL e1x, e1y, e1z, e2x, e2y, e2z;  // parallel to e1 and e2
@@ -137,7 +137,8 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     l.e1y = swap ? major : cross;
     VNDF_REAL w1 = VNDF_FMA(c.e, l.e1x, c.f * l.e1y);
     l.e1z = -w1;
-    VNDF_REAL spread = VNDF_R(1.0) / (VNDF_R(2.0) * size * major);
+    l.rcp_spread = VNDF_R(2.0) * size * major;
+    VNDF_REAL spread = VNDF_R(1.0) / l.rcp_spread;
     l.e2x = -l.e1y * c.bx;
     l.e2y = l.e1x * c.by;
     VNDF_REAL w2 = VNDF_FMA(c.y, l.e1x, -c.x * l.e1y);
@@ -199,11 +200,11 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_RE
     l.length2 = VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z));
     l.e = c.e;
     l.f = c.f;
-    l.unit = c.unit;
+    l.unit = above ? c.unit * v.scale : VNDF_R(1.0);
     l.cap = vndf_impl_conic_cap_of(v, wo.z);
     l.cap.x = above ? VNDF_R(0.0) : l.cap.x;
     l.cap.y = above ? VNDF_R(0.0) : l.cap.y;
-    l.twice_sigma = above ? VNDF_R(2.0) * vndf_impl_cone_area(c) : l.cap.p;
+    l.twice_sigma = above ? VNDF_R(2.0) * vndf_impl_cone_area(c, v.scale) : l.cap.p;
     return l;
 }
 
@@ -289,7 +290,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_with_pdf(VNDF_REAL3 wo, VNDF_REA
 // Twice that part, or twice the whole for w.z <= 0.
 VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(VNDF_REAL3 w, VNDF_REAL alpha_x, VNDF_REAL alpha_y) {
     struct vndf_impl_cone_view v = vndf_impl_cone_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
-    VNDF_REAL visible = VNDF_R(2.0) * vndf_impl_cone_area(vndf_impl_cone_of(v, alpha_x, alpha_y));
+    VNDF_REAL visible = VNDF_R(2.0) * vndf_impl_cone_area(vndf_impl_cone_of(v, alpha_x, alpha_y), v.scale);
     VNDF_REAL behind = vndf_impl_conic_cap_of(v, w.z).p;
     return w.z > VNDF_R(0.0) ? visible : behind;
 }
@@ -319,7 +320,8 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
     struct vndf_impl_cone_view v = vndf_impl_cone_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     struct vndf_impl_cone c = vndf_impl_cone_of(v, alpha_x, alpha_y);
     VNDF_REAL t = VNDF_SQRT(VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z)));
-    VNDF_REAL p = VNDF_R(2.0) * VNDF_SQRT(c.poles) / (c.whole * (t + c.z));
+    VNDF_REAL rcp = VNDF_R(1.0) / (c.whole * (t + c.z));
+    VNDF_REAL p = VNDF_R(2.0) * VNDF_SQRT(c.poles * rcp * rcp);  // one root feeds the other (impl/stretch.h)
     return w.z > VNDF_R(0.0) ? vndf_impl_share(p) + vndf_impl_zero(w.x, w.y, w.z) : VNDF_R(1.0);
 }
 
@@ -362,13 +364,13 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
     VNDF_REAL rim2 = VNDF_FMA(-tau, l.s0, m0), left = tau * VNDF_FMA(-tau, l.length2, twice);
     m2 = VNDF_FMA(-tau, l.s2, m2);
     d.y = VNDF_FMA(-tau, l.along_1 * l.dual_1, m1) / l.step_1;
-    VNDF_REAL rcp = VNDF_R(1.0) / l.spread, y2 = d.y * (d.y * rcp);
+    VNDF_REAL y2 = d.y * (d.y * l.rcp_spread);
     VNDF_REAL rim = VNDF_SQRT(VNDF_FMA(l.rim_1, vndf_impl_share(y2), l.rim_0)), rims = rim + rim2;
     VNDF_REAL step = rims > VNDF_R(0.0) ? left / rims : VNDF_R(0.0);
     m2 = VNDF_FMA(-l.share * step, l.s2, m2);
     d.x = m2 / l.step_2;
     VNDF_REAL rest = step * (VNDF_FMA(l.slope_2, m2, l.slope_0 * rim) + root);
-    VNDF_REAL square = VNDF_FMA(d.x, d.x * rcp, y2);
+    VNDF_REAL square = VNDF_FMA(d.x, d.x * l.rcp_spread, y2);
     d.u2 = square > VNDF_R(0.5) ? VNDF_R(1.0) - rest : square;
     return d;
 }
@@ -397,13 +399,13 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     struct vndf_impl_disk_square front = vndf_impl_conic_invert(l, m, twice * l.unit, height);
     // The cap: 1 - u2 = 2 (v . m) m.z / p, and the stretched reflection, whose part across z has the square
     // u2 p ((1 - u2) p + r - z).
-    VNDF_REAL rcp_p = l.cap.p > VNDF_R(0.0) ? VNDF_R(1.0) / l.cap.p : VNDF_R(0.0);
+    int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
+    VNDF_REAL rcp_p = !above && l.cap.p > VNDF_IMPL_LEAST ? VNDF_R(1.0) / l.cap.p : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, m.x, -l.alpha_x * l.wo_x), oy = VNDF_FMA(twice, m.y, -l.alpha_y * l.wo_y);
     VNDF_REAL rest = twice * m.z * rcp_p;
     VNDF_REAL part = VNDF_FMA(VNDF_R(1.0) + vndf_impl_max(rest, VNDF_R(0.0)), l.cap.p, l.cap.gap);
     VNDF_REAL u2 = VNDF_FMA(ox, ox, oy * oy) * rcp_p / (part > VNDF_R(0.0) ? part : VNDF_R(1.0));
     u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
-    int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
     VNDF_REAL u1 = vndf_impl_turn(above ? front.x : ox, above ? front.y : oy);
     u2 = vndf_impl_share(vndf_impl_max(above ? front.u2 : u2, VNDF_R(0.0)));
     return VNDF_MAKE2(defined ? vndf_impl_share(u1) : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
@@ -439,7 +441,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     cap.p = quotient * back2;
     cap.gap = VNDF_R(-2.0) * wo.z;
     cap.back = back;
-    VNDF_REAL unit = quotient, a = pole * unit, bx = VNDF_R(1.0) + a, w1 = l2 * unit;
+    VNDF_REAL unit = above ? quotient : VNDF_R(1.0), a = pole * unit, bx = VNDF_R(1.0) + a, w1 = l2 * unit;
     z *= unit;
     VNDF_REAL spread = VNDF_R(1.0) / (bx * l2), rcp = l2 * spread, tilt2 = w1 * unit, xx = tilt2 * rcp;
     VNDF_REAL m1 = a + xx, g1 = bx + xx, m2 = a * g1;
@@ -454,7 +456,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     m.in = above ? VNDF_FMA(VNDF_FMA(m0, rcp, tau), unit, ey * bx) : m.in;
     m.across = above ? g1 * ex : m.across;
     m.z = above ? VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0)) : m.z;
-    VNDF_REAL visible = VNDF_R(2.0) / (g1 * unit * scale);  // sqrt(poles) is no root here
+    VNDF_REAL visible = VNDF_R(2.0) * back / (g1 * unit);  // sqrt(poles) is no root here
     return vndf_impl_conic_reflect(vndf_impl_conic_turn(m, x, y), wo.x, wo.y, wo.z, alpha_x, alpha_y,
                                    above ? visible : cap.p);
 }

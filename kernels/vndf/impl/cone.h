@@ -22,7 +22,7 @@ struct vndf_impl_cone {
     VNDF_REAL e, f;                   // x / bx, y / by: (e, f, 1) is parallel to e0
     VNDF_REAL xx, yy;                 // squares of w
     VNDF_REAL trace, product, whole;  // m1 + m2, m1 m2, (1 + m1)(1 + m2)
-    VNDF_REAL unit;                   // 1 / mu, for the v given
+    VNDF_REAL unit;                   // 1 / mu
 };
 
 // 1 / x for a power of two that vndf_impl_scale gave. (Two calls of that would be packed, see impl/stretch.h.)
@@ -104,7 +104,7 @@ VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_cone_view v, VN
     c.x = v.x * unit;
     c.y = v.y * unit;
     c.z = v.z * unit;
-    c.unit = unit * v.scale;
+    c.unit = unit;
     c.ax = c.z * x2;
     c.ay = c.z * y2;
     c.bx = VNDF_R(1.0) + c.ax;
@@ -121,9 +121,9 @@ VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_cone_view v, VN
     return c;
 }
 
-// sqrt(poles) mu / whole: sigma_vis, above the surface.
-VNDF_FN VNDF_REAL vndf_impl_cone_area(struct vndf_impl_cone c) {
-    return VNDF_SQRT(c.poles) / (c.whole * c.unit);
+// sqrt(poles) mu / whole: sigma_vis of the v before it was scaled, above the surface.
+VNDF_FN VNDF_REAL vndf_impl_cone_area(struct vndf_impl_cone c, VNDF_REAL scale) {
+    return VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale) / (c.whole * c.unit);
 }
 
 #endif
