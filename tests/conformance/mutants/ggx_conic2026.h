@@ -89,4 +89,4 @@
      "above ? most : VNDF_REAL_MAX);",
      "above ? VNDF_R(1.0) : VNDF_REAL_MAX);",
      "vndf_ggx_sample_wi_conic2026_isotropic",
-     {"pointwise, front"}},
+     {"pointwise, core"}},
