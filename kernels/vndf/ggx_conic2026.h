@@ -465,7 +465,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
 // wo: as there. At normal incidence the azimuth 0 counts as the one of wo.
 // alpha: in [1e-8, 1e3].
 // u, return: as there.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 1.5 behind the surface; double 2, 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_conic2026_isotropic(VNDF_REAL3 wo, VNDF_REAL alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_conic2026_isotropic(wo, alpha, u));
 }
