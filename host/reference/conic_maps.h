@@ -69,6 +69,17 @@ void cone_matrix(const View<R>& v, R (&q)[3][3]) {
     q[2][2] = v.cos_theta;
 }
 
+// Rotations leave an eigenvalue the rounding errors of the largest one. The quotient of Rayleigh, m^T Q m / m^T m in the terms
+// of the horizon's equation, has the square of the vector's error instead.
+template <class R, class T>
+T rayleigh(const View<R>& v, const T (&m)[3][3], int i) {
+    const T e = m[0][i], p = m[1][i], z = m[2][i], cosine = value_of(v.cos_theta);
+    const T x = value_of(v.alpha_x) * (e * value_of(v.ex) - p * value_of(v.ey)),
+            y = value_of(v.alpha_y) * (e * value_of(v.ey) + p * value_of(v.ex));
+    return (2 * (value_of(v.sin_theta) * e + cosine * z) * z - cosine * (x * x + y * y + z * z)) /
+           (e * e + p * p + z * z);
+}
+
 template <class R>
 Cone<R> cone(const View<R>& v) {
     using std::sqrt;
@@ -78,7 +89,8 @@ Cone<R> cone(const View<R>& v) {
     T a[3][3];
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) a[i][j] = value_of(q[i][j]);
-    const Eigen<T> eigen = jacobi(a);
+    Eigen<T> eigen = jacobi(a);
+    for (int i = 0; i < 3; ++i) eigen.value[i] = rayleigh(v, eigen.v, i);
 
     int order[3] = {2, 0, 1};  // of e0, e1, e2
     for (int i = 1; i < 3; ++i)
