@@ -9,11 +9,9 @@
 #include "ggx.h"
 #include "impl/caps.h"
 #include "impl/exact.h"
+#include "impl/lobe.h"
 
 // n x w, each component with the error of one rounding.
-struct vndf_impl_vector {
-    VNDF_REAL x, y, z;
-};
 VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
     struct vndf_impl_vector c;
     c.x = vndf_impl_difference_of_products(n.y, w.z, n.z, w.y);

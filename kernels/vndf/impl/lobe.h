@@ -1,0 +1,59 @@
+// Half vectors of a cap of stretched reflections, and the visible normals and reflections that they make.
+//
+// With t = tan(theta / 2) along the azimuth of v and u2 = 1 - rest, the cap's reflection o has 1 - o.z = 2 u2 / (1 + t^2), and
+// o + v / |v| is parallel to h = (R e(phi) + t, rest), R^2 = u2 (rest + t^2): to (R e + (x, y), rest height) in a lobe's
+// numbers. A normal's density in stretched space is |h| / (pi height).
+#ifndef VNDF_IMPL_LOBE_H
+#define VNDF_IMPL_LOBE_H
+
+#include "../ggx_lobe.h"
+#include "stretch.h"
+
+struct vndf_impl_vector {
+    VNDF_REAL x, y, z;
+};
+
+// e + (x, y) and z, where e is a vector of squared length `square` at the azimuth u1, and excess = square - l2, l2 = x^2 +
+// y^2. Both parts nearly cancel where e is opposite to (x, y): the sum is exact there, but for the length that e has by
+// rounding, |e|^2 - l2 = (e - (x, y)) . (e + (x, y)), which is corrected to the one it should have.
+VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_REAL l2, VNDF_REAL u1,
+                                                  VNDF_REAL square, VNDF_REAL excess, VNDF_REAL z) {
+    struct vndf_impl_vector h;
+    VNDF_REAL radius = VNDF_SQRT(square);
+    VNDF_REAL ex = radius * vndf_impl_circle_cos(u1), ey = radius * vndf_impl_circle_sin(u1);
+    VNDF_REAL hx = ex + v.x, hy = ey + v.y;
+    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (square + l2);
+    h.x = VNDF_FMA(-error, ex, hx);
+    h.y = VNDF_FMA(-error, ey, hy);
+    h.z = z;
+    return h;
+}
+
+// The plain cap. excess = h.z (2 z - h.z), and the other form where that cancels.
+VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
+    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.height * v.height, z = rest * v.height;
+    VNDF_REAL level = z * VNDF_FMA(VNDF_R(2.0), v.z, -z), steep = rest * VNDF_FMA(u2, height2, -l2);
+    return vndf_impl_cap_sum(v, l2, u1, u2 * VNDF_FMA(rest, height2, l2), v.level ? level : steep, z);
+}
+
+// The normal of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2), g = (alpha_x h.x, alpha_y h.y,
+// h.z): from the length that h has, not from the one it should have.
+VNDF_FN struct vndf_impl_sample vndf_impl_cap_normal(struct vndf_ggx_lobe v, struct vndf_impl_vector h) {
+    struct vndf_impl_sample m;
+    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    // Only a wo whose length has left the range of numbers has none.
+    int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
+    m.x = defined ? gx * rcp : VNDF_R(0.0);
+    m.y = defined ? gy * rcp : VNDF_R(0.0);
+    m.z = defined ? h.z * rcp : VNDF_R(1.0);
+    VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
+    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.height * (v.alpha_x * v.alpha_y));
+    // At wo = -z, where nothing is visible, the height is 0, and the normal on the horizon.
+    m.pdf = defined && v.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return m;
+}
+
+#endif
