@@ -26,9 +26,9 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(struct vndf_ggx_lobe v) {
     VNDF_REAL s2 = VNDF_FMA(VNDF_R(2.0), sine2 + VNDF_SQRT(sine2 * (sine2 + z2)), z2);
     VNDF_REAL gap = a2 * (s2 + z2) / VNDF_FMA(a2, z2, s2);
     gap = v.wo_z > VNDF_R(0.0) ? gap : VNDF_R(0.0);
-    bound.gap_z = gap * v.z;
-    bound.other_z = VNDF_FMA(VNDF_R(2.0), v.z, -bound.gap_z);
-    bound.height = v.height - bound.gap_z;
+    bound.gap_z = gap * v.axis.z;
+    bound.other_z = VNDF_FMA(VNDF_R(2.0), v.axis.z, -bound.gap_z);
+    bound.height = v.axis.height - bound.gap_z;
     return bound;
 }
 
@@ -36,11 +36,16 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(struct vndf_ggx_lobe v) {
 // the height of the bound.
 VNDF_FN struct vndf_impl_vector vndf_impl_bounded_half(struct vndf_ggx_lobe v, struct vndf_impl_bound b,
                                                        VNDF_REAL2 u) {
+    struct vndf_impl_cap_point p;
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), rest_b = rest * b.height, z = rest_b + b.gap_z;
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), rest_b = rest * b.height;
     VNDF_REAL part = VNDF_FMA(rest_b, b.height, b.gap_z * b.other_z);
-    VNDF_REAL level = z * VNDF_FMA(VNDF_R(2.0), v.z, -z), steep = VNDF_FMA(u2, part, -rest * l2);
-    return vndf_impl_cap_sum(v, l2, u1, u2 * (part + l2), v.level ? level : steep, z);
+    p.z = rest_b + b.gap_z;
+    p.square = u2 * (part + l2);
+    VNDF_REAL level = p.z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -p.z), steep = VNDF_FMA(u2, part, -rest * l2);
+    p.excess = v.axis.level ? level : steep;
+    p.both = p.square + l2;
+    return vndf_impl_cap_sum(v, p, u1);
 }
 
 // The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k
@@ -63,7 +68,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_bounded_reflection(struct vndf_ggx_lob
     o.y *= rcp;
     o.z *= rcp;
     VNDF_REAL ratio = g2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    VNDF_REAL density = (VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * v.weight) * (ratio * length);
+    VNDF_REAL density = (VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * v.axis.weight) * (ratio * length);
     VNDF_REAL pdf = density / (height * (v.alpha_x * v.alpha_y));
     o.pdf = height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
@@ -104,7 +109,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(struct vndf_ggx_lobe v, VNDF_REAL3 w
     VNDF_REAL slack = VNDF_R(4.0) * VNDF_EPSILON * h.scale *
                       (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
     int inside = v.wo_z <= VNDF_R(0.0) || excess > -slack;
-    VNDF_REAL n = b.height * VNDF_R(7.450580596923828125e-09) / v.weight;
+    VNDF_REAL n = b.height * VNDF_R(7.450580596923828125e-09) / v.axis.weight;
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
     return inside ? pdf : VNDF_R(0.0);
 }

@@ -10,25 +10,18 @@
 
 #include "impl/range.h"
 
-// What all samples, densities and terms of a lobe share. Made by vndf_ggx_lobe_of, used by the functions with _lobe in their
-// names; its members are internals.
-struct vndf_ggx_lobe {
-    VNDF_REAL wo_x, wo_y, wo_z;
-    VNDF_REAL alpha_x, alpha_y;  // clamped
-    VNDF_REAL t;                 // r 2^27
-    // (x, y) / height = tan(theta / 2) along the azimuth of v, and 2 z / height = 1 - tan^2(theta / 2). Above the surface
-    // these are v.x, v.y, r + z and z, times 2^27; below it v.x (r - z), v.y (r - z), l^2 and z (r - z), over about l.
-    VNDF_REAL x, y, z, height;
-    VNDF_REAL weight;  // 1, or what stands for r - z; so that height / weight = (r + z) 2^27 = 2 sigma 2^27
-    int level;         // v is near the horizon: |z| < height / 4
+// theta of a v by its parts times 2^27: squares keep full precision down to v.x = 1e-27, and the largest, (2^27 1e6)^2, is far
+// from overflow.
+struct vndf_impl_axis {
+    VNDF_REAL t;  // r 2^27
+    // (x, y) / height = tan(theta / 2), (x, y) = weight (v.x, v.y) 2^27, and 2 z / height = 1 - tan^2(theta / 2). Above the
+    // surface height is r + z; below it l^2, and the weight r - z, both over about l.
+    VNDF_REAL height, weight, z;
+    int level;  // v is near the horizon: |z| < height / 4
 };
 
-// The azimuth 0 of a v without one: this part of its length is added along x.
-#if VNDF_DOUBLE
-#define VNDF_IMPL_AZIMUTH 8.67361737988403547e-19  // 2^-60
-#else
-#define VNDF_IMPL_AZIMUTH 3.7252902984619140625e-09f  // 2^-28
-#endif
+// What stands for l = 0: nothing beside any number above the surface, and not lost below it, where scale is large.
+#define VNDF_IMPL_NO_LENGTH VNDF_R(8.67361737988403547e-19)  // 2^-60
 
 // A power of two near 1 / l, for l2 = l^2.
 VNDF_FN VNDF_REAL vndf_impl_rcp_root_scale(VNDF_REAL l2) {
@@ -38,6 +31,28 @@ VNDF_FN VNDF_REAL vndf_impl_rcp_root_scale(VNDF_REAL l2) {
     return VNDF_AS_REAL(0x5f000000 - ((VNDF_AS_INT(l2) >> 1) & 0x7f800000));
 #endif
 }
+VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
+    struct vndf_impl_axis v;
+    VNDF_REAL size = vndf_impl_abs(z);
+    v.t = VNDF_SQRT(VNDF_FMA(z, z, l2));
+    VNDF_REAL sum = v.t + size;
+    VNDF_REAL scale = vndf_impl_rcp_root_scale(l2), weight = sum * scale, height = l2 * scale;
+    int front = z >= VNDF_R(0.0);
+    v.weight = front ? VNDF_R(1.0) : weight;
+    v.height = front ? sum : height;
+    v.z = v.weight * z;
+    v.level = sum > VNDF_R(5.0) * size;
+    return v;
+}
+
+// What all samples, densities and terms of a lobe share. Made by vndf_ggx_lobe_of, used by the functions with _lobe in their
+// names; its members are internals.
+struct vndf_ggx_lobe {
+    VNDF_REAL wo_x, wo_y, wo_z;
+    VNDF_REAL alpha_x, alpha_y;  // clamped
+    struct vndf_impl_axis axis;
+    VNDF_REAL x, y;  // (x, y) / height = tan(theta / 2) along the azimuth of v
+};
 
 // The lobe of wo and alpha: all that does not depend on u, wi or wm.
 // wo: unit vector, local frame, anywhere on the sphere.
@@ -50,23 +65,12 @@ VNDF_FN struct vndf_ggx_lobe vndf_ggx_lobe_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     lobe.wo_z = wo.z;
     lobe.alpha_x = vndf_impl_alpha(alpha.x);
     lobe.alpha_y = vndf_impl_alpha_y(alpha.y);
-    // v 2^27: squares keep full precision down to wo.x = 1e-19 for every alpha in the domain, and the largest, (2^27 1e3)^2,
-    // is far from overflow.
-    VNDF_REAL kx = lobe.alpha_x * wo.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wo.y * VNDF_R(134217728.0),
-              kz = wo.z * VNDF_R(134217728.0), size = vndf_impl_abs(kz);
+    VNDF_REAL kx = lobe.alpha_x * wo.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wo.y * VNDF_R(134217728.0);
     VNDF_REAL l2 = VNDF_FMA(kx, kx, ky * ky);
-    lobe.t = VNDF_SQRT(VNDF_FMA(kz, kz, l2));
-    VNDF_REAL sum = lobe.t + size;
-    // Below the surface numbers of second degree in v, brought back to the first.
-    int front = wo.z >= VNDF_R(0.0);
-    VNDF_REAL scale = vndf_impl_rcp_root_scale(l2), low = l2 * scale;
-    VNDF_REAL larger = front ? VNDF_R(1.0) : sum, scaled = larger * scale;
-    lobe.weight = front ? larger : scaled;
-    lobe.height = front ? sum : low;
-    lobe.x = VNDF_FMA(lobe.weight, kx, larger * VNDF_IMPL_AZIMUTH);
-    lobe.y = lobe.weight * ky;
-    lobe.z = lobe.weight * kz;
-    lobe.level = sum > VNDF_R(5.0) * size;
+    lobe.axis = vndf_impl_axis_of(l2, wo.z * VNDF_R(134217728.0));
+    // Azimuth 0 for a v without one.
+    lobe.x = lobe.axis.weight * (l2 > VNDF_R(0.0) ? kx : VNDF_IMPL_NO_LENGTH);
+    lobe.y = lobe.axis.weight * ky;
     return lobe;
 }
 

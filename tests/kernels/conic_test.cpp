@@ -211,11 +211,11 @@ TEST_CASE("the polygon's cap holds every reflection above the horizon, and Equat
         const double z2 = at.z * at.z;
         const vndf_ggx_lobe v = vndf_ggx_lobe_of({at.x, at.y, at.z}, {at.alpha_x, at.alpha_y});
         const vndf_impl_bound polygon = vndf_impl_ggx_polygon(v), equation6 = vndf_impl_ggx_bound(v);
-        const double k = 1 - polygon.gap_z / v.z, k6 = 1 - equation6.gap_z / v.z;
+        const double k = 1 - polygon.gap_z / v.axis.z, k6 = 1 - equation6.gap_z / v.axis.z;
         looser = std::max(looser, k - k6);
         tighter = std::max(tighter, k6 - k);
-        CHECK(polygon.height == Catch::Approx(v.t + k * v.z).margin(1e-10 * v.t));
-        CHECK(polygon.other_z == Catch::Approx((1 + k) * v.z).margin(1e-10 * v.t));
+        CHECK(polygon.height == Catch::Approx(v.axis.t + k * v.axis.z).margin(1e-10 * v.axis.t));
+        CHECK(polygon.other_z == Catch::Approx((1 + k) * v.axis.z).margin(1e-10 * v.axis.t));
         double lowest = 1;  // of (o_z / cos + k) on the horizon, o_z / cos = 1 / q - 1
         for (int j = 0; j < 512; ++j) {
             const double phi = 2 * VNDF_PI * (j + random.uniform()) / 512;

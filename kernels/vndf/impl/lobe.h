@@ -13,28 +13,43 @@ struct vndf_impl_vector {
     VNDF_REAL x, y, z;
 };
 
-// e + (x, y) and z, where e is a vector of squared length `square` at the azimuth u1, and excess = square - l2, l2 = x^2 +
-// y^2. Both parts nearly cancel where e is opposite to (x, y): the sum is exact there, but for the length that e has by
-// rounding, |e|^2 - l2 = (e - (x, y)) . (e + (x, y)), which is corrected to the one it should have.
-VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_REAL l2, VNDF_REAL u1,
-                                                  VNDF_REAL square, VNDF_REAL excess, VNDF_REAL z) {
+// The point on the cap, e: its height z, R^2 = |e|^2, what of it is more than l2 = x^2 + y^2, and the sum of both.
+struct vndf_impl_cap_point {
+    VNDF_REAL z, square, excess, both;
+};
+// excess = z (2 z_v - z), and the other form where that cancels.
+VNDF_FN struct vndf_impl_cap_point vndf_impl_cap_point_of(struct vndf_impl_axis v, VNDF_REAL l2, VNDF_REAL u2,
+                                                          VNDF_REAL rest) {
+    struct vndf_impl_cap_point p;
+    VNDF_REAL height2 = v.height * v.height;
+    p.z = rest * v.height;
+    p.square = u2 * VNDF_FMA(rest, height2, l2);
+    VNDF_REAL level = p.z * VNDF_FMA(VNDF_R(2.0), v.z, -p.z), steep = rest * VNDF_FMA(u2, height2, -l2);
+    p.excess = v.level ? level : steep;
+    p.both = p.square + l2;
+    return p;
+}
+
+// The half vector e + (x, y), e at the azimuth u1. Both parts nearly cancel where e is opposite to (x, y): the sum is exact
+// there, but for the length that e has by rounding, |e|^2 - l2 = (e - (x, y)) . (e + (x, y)), which is corrected to the one it
+// should have.
+VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, struct vndf_impl_cap_point p,
+                                                  VNDF_REAL u1) {
     struct vndf_impl_vector h;
-    VNDF_REAL radius = VNDF_SQRT(square);
+    VNDF_REAL radius = VNDF_SQRT(p.square);
     VNDF_REAL ex = radius * vndf_impl_circle_cos(u1), ey = radius * vndf_impl_circle_sin(u1);
     VNDF_REAL hx = ex + v.x, hy = ey + v.y;
-    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (square + l2);
+    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -p.excess)) / p.both;
     h.x = VNDF_FMA(-error, ex, hx);
     h.y = VNDF_FMA(-error, ey, hy);
-    h.z = z;
+    h.z = p.z;
     return h;
 }
 
-// The plain cap. excess = h.z (2 z - h.z), and the other form where that cancels.
+// The plain cap.
 VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
-    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.height * v.height, z = rest * v.height;
-    VNDF_REAL level = z * VNDF_FMA(VNDF_R(2.0), v.z, -z), steep = rest * VNDF_FMA(u2, height2, -l2);
-    return vndf_impl_cap_sum(v, l2, u1, u2 * VNDF_FMA(rest, height2, l2), v.level ? level : steep, z);
+    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), l2 = VNDF_FMA(v.x, v.x, v.y * v.y);
+    return vndf_impl_cap_sum(v, vndf_impl_cap_point_of(v.axis, l2, u2, VNDF_R(1.0) - u2), u1);
 }
 
 // The normal of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2), g = (alpha_x h.x, alpha_y h.y,
@@ -50,10 +65,31 @@ VNDF_FN struct vndf_impl_sample vndf_impl_cap_normal(struct vndf_ggx_lobe v, str
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? h.z * rcp : VNDF_R(1.0);
     VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.height * (v.alpha_x * v.alpha_y));
+    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.axis.height * (v.alpha_x * v.alpha_y));
     // At wo = -z, where nothing is visible, the height is 0, and the normal on the horizon.
-    m.pdf = defined && v.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    m.pdf = defined && v.axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
+}
+
+// What the maps by disks and slopes need of a lobe: the azimuth of v, and of theta its cosine z, its sine, P = 1 + z and Q = 1
+// - z, never as differences, and the root of P, which keeps its digits where P underflows.
+struct vndf_impl_polar {
+    VNDF_REAL x, y, z, sine, p, q, sqrt_p;
+};
+VNDF_FN struct vndf_impl_polar vndf_impl_polar_of(struct vndf_ggx_lobe v) {
+    struct vndf_impl_polar polar;
+    // Each root and quotient feeds the next: alike they would be packed (impl/stretch.h).
+    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), l2 = l * l, height2 = v.axis.height * v.axis.height;
+    VNDF_REAL rcp = VNDF_R(2.0) / (l2 + height2), rcp_l = VNDF_R(1.0) / l;
+    VNDF_REAL level = VNDF_R(2.0) * v.axis.z * v.axis.height, steep = height2 - l2;
+    polar.x = v.x * rcp_l;
+    polar.y = v.y * rcp_l;
+    polar.z = VNDF_R(0.5) * (v.axis.level ? level : steep) * rcp;
+    polar.sine = l * v.axis.height * rcp;
+    polar.p = height2 * rcp;
+    polar.q = l2 * rcp;
+    polar.sqrt_p = v.axis.height * VNDF_SQRT(rcp);
+    return polar;
 }
 
 #endif
