@@ -33,8 +33,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     VNDF_REAL k = alpha * VNDF_R(134217728.0), kx = k * VNDF_FMA(c.y, n.z, -c.z * n.y),
               ky = k * VNDF_FMA(c.z, n.x, -c.x * n.z), kz = k * VNDF_FMA(c.x, n.y, -c.y * n.x);
     VNDF_REAL k2 = VNDF_FMA(kx, kx, VNDF_FMA(ky, ky, kz * kz));
-    struct vndf_impl_axis v = vndf_impl_axis_of(
-        k2, VNDF_FMA(wo.x, n.x, VNDF_FMA(wo.y, n.y, wo.z * n.z)) * VNDF_R(134217728.0));
+    struct vndf_impl_axis v =
+        vndf_impl_axis_of(k2, VNDF_FMA(wo.x, n.x, VNDF_FMA(wo.y, n.y, wo.z * n.z)) * VNDF_R(134217728.0));
     // The azimuth's unit vector, turned; it is wo's where wo has none.
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
     VNDF_REAL cosine = vndf_impl_circle_cos(u1), sine = vndf_impl_circle_sin(u1);

@@ -43,8 +43,9 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_polygon(struct vndf_ggx_lobe v) {
     VNDF_REAL other_z = VNDF_FMA(VNDF_R(2.0), v.axis.z, -bound.gap_z), height = v.axis.height - bound.gap_z;
     VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), part = a2 * s;
     VNDF_REAL wide_z = VNDF_R(2.0) * VNDF_FMA(part, sine, z2) * rcp * v.axis.z;
-    VNDF_REAL wide_height =
-        VNDF_FMA(v.axis.height, VNDF_FMA(part, sine, z2), part * (l2 / (front ? v.axis.height : VNDF_R(1.0)))) * rcp;
+    VNDF_REAL wide_height = VNDF_FMA(v.axis.height, VNDF_FMA(part, sine, z2),
+                                     part * (l2 / (front ? v.axis.height : VNDF_R(1.0)))) *
+                            rcp;
     bound.other_z = wide && front ? wide_z : other_z;
     bound.height = wide && front ? wide_height : height;
     return bound;

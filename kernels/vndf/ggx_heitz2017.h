@@ -14,8 +14,10 @@
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u1;
     // Below the surface, and where |wo| has left the range of numbers, they are not used, and only bounded.
-    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), rcp_t = VNDF_R(1.0) / v.axis.t, rcp_l = VNDF_R(1.0) / l;
-    VNDF_REAL z = vndf_impl_share(vndf_impl_abs(v.axis.z) * rcp_t), sine = vndf_impl_share(l * rcp_t), p = VNDF_R(1.0) + z;
+    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), rcp_t = VNDF_R(1.0) / v.axis.t,
+              rcp_l = VNDF_R(1.0) / l;
+    VNDF_REAL z = vndf_impl_share(vndf_impl_abs(v.axis.z) * rcp_t), sine = vndf_impl_share(l * rcp_t),
+              p = VNDF_R(1.0) + z;
     int facing = u2 * p < VNDF_R(1.0);
     // Half a turn at most: where z is lost in P = 1 + z the quotient may be any number. z = 0 has no tangent disk, and its
     // quotient is not used.

@@ -79,7 +79,8 @@ struct vndf_impl_polar {
 VNDF_FN struct vndf_impl_polar vndf_impl_polar_of(struct vndf_ggx_lobe v) {
     struct vndf_impl_polar polar;
     // Each root and quotient feeds the next: alike they would be packed (impl/stretch.h).
-    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), l2 = l * l, height2 = v.axis.height * v.axis.height;
+    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), l2 = l * l,
+              height2 = v.axis.height * v.axis.height;
     VNDF_REAL rcp = VNDF_R(2.0) / (l2 + height2), rcp_l = VNDF_R(1.0) / l;
     VNDF_REAL level = VNDF_R(2.0) * v.axis.z * v.axis.height, steep = height2 - l2;
     polar.x = v.x * rcp_l;
