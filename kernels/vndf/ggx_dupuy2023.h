@@ -8,8 +8,7 @@
 #include "ggx.h"
 #include "impl/lobe.h"
 
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    struct vndf_ggx_lobe lobe = vndf_ggx_lobe_of(wo, alpha);
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_cap_normal(lobe, vndf_impl_cap_half(lobe, u));
 }
 
@@ -21,12 +20,23 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(VNDF_REAL3 wo, VNDF_REAL
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1 behind the surface; double 1, 1.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_ggx_dupuy2023(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_ggx_dupuy2023(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
 // The same; w: its density per steradian of wm, from the sampler's own terms.
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_dupuy2023_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(vndf_ggx_lobe_of(wo, alpha), u));
+}
+
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1 behind the surface; double 1, 1.
+VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_ggx_dupuy2023(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_dupuy2023_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(lobe, u));
 }
 
 #endif

@@ -54,4 +54,15 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2017_with_pdf(VNDF_REAL3 wo, VNDF_REA
     return vndf_impl_direction_pdf(vndf_impl_ggx_heitz2017(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number); double 2.
+VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2017_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_ggx_heitz2017(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2017_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz2017(lobe, u));
+}
+
 #endif

@@ -74,4 +74,9 @@ VNDF_FN struct vndf_ggx_lobe vndf_ggx_lobe_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     return lobe;
 }
 
+// Twice the projected area that wo sees, z + t.
+VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
+    return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
+}
+
 #endif
