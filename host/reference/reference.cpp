@@ -386,8 +386,8 @@ double condition(std::string_view sampler, const double* in, Precision precision
 
 double cap_margin(std::string_view density, const double* in, Precision precision) {
     constexpr double no_cap = std::numeric_limits<double>::infinity();
-    const bool polygon = density == "vndf_ggx_pdf_wi_eto2023_polygon";
-    if (!polygon && density != "vndf_ggx_pdf_wi_eto2023") return no_cap;  // other arguments, too
+    const bool polygon = density.starts_with("vndf_ggx_pdf_wi_eto2023_polygon");
+    if (!density.starts_with("vndf_ggx_pdf_wi_eto2023")) return no_cap;  // other arguments, too
     Reader<double> reader{in, precision};
     const Vec3<double> wo = reader.vector(), wi = reader.vector();
     if (!(wo.z > 0)) return no_cap;

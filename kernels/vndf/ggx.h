@@ -116,11 +116,6 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
     return g1 * vndf_ggx_g1(wi, alpha_i);
 }
 
-// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi of a perfectly conducting mirror.
-// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = i (o + t_o) / (t_o i + t_i o), o = wo.z, i = wi.z.
-// wo, wi: unit vectors, local frame.
-// return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 8.
 VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
     // Made dependent on wo's root, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
@@ -129,6 +124,12 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi)
     VNDF_REAL weight = wi.z * lobe.axis.height / VNDF_FMA(lobe.axis.t, wi.z, t_i * lobe.wo_z);
     return lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0) ? vndf_impl_share(weight) : VNDF_R(0.0);
 }
+
+// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi of a perfectly conducting mirror.
+// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = i (o + t_o) / (t_o i + t_i o), o = wo.z, i = wi.z.
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 8.
 VNDF_FN VNDF_REAL vndf_ggx_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_impl_ggx_weight(vndf_ggx_lobe_of(wo, alpha), wi);
 }
@@ -139,13 +140,6 @@ VNDF_FN VNDF_REAL vndf_ggx_weight_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi)
     return vndf_impl_ggx_weight(lobe, wi);
 }
 
-// The distribution of visible normals: the density of every vndf_ggx_sample_wm_* but walter2007.
-// Source: Dupuy & Benyoub 2023, Equation 1, as max(wo . wm, 0) D(wm) / sigma(wo).
-// wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
-// wm: unit normal, local frame.
-// return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
-// Accuracy: 14 eps; double 13.
-//     Also where wo . wm or 1 + wo.z nearly vanish.
 VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wm(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm) {
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, lobe.alpha_x, lobe.alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_lobe_twice_sigma(lobe);
@@ -156,6 +150,14 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wm(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm)
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
+
+// The distribution of visible normals: the density of every vndf_ggx_sample_wm_* but walter2007.
+// Source: Dupuy & Benyoub 2023, Equation 1, as max(wo . wm, 0) D(wm) / sigma(wo).
+// wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
+// wm: unit normal, local frame.
+// return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
+// Accuracy: 14 eps; double 13.
+//     Also where wo . wm or 1 + wo.z nearly vanish.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, alpha), wm);
 }
@@ -166,6 +168,12 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm)
     return vndf_impl_ggx_pdf_wm(lobe, wm);
 }
 
+VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wi(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    struct vndf_impl_half h =
+        vndf_impl_half_of(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), wi, lobe.alpha_x, lobe.alpha_y);
+    return vndf_impl_ggx_reflection_pdf(h, vndf_impl_lobe_twice_sigma(lobe), lobe.alpha_x, lobe.alpha_y);
+}
+
 // The density of the reflection of wo about a visible normal.
 // Source: Dupuy & Benyoub 2023, Equation 20, with 1 / sigma for G1 / cos: D(h) / (4 sigma(wo)), h = wo + wi.
 // wo: unit vector, local frame, anywhere on the sphere.
@@ -174,11 +182,6 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm)
 // Accuracy: 16 eps; double 20.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use a sampler's _with_pdf form
 //     there.
-VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wi(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
-    struct vndf_impl_half h =
-        vndf_impl_half_of(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), wi, lobe.alpha_x, lobe.alpha_y);
-    return vndf_impl_ggx_reflection_pdf(h, vndf_impl_lobe_twice_sigma(lobe), lobe.alpha_x, lobe.alpha_y);
-}
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_impl_ggx_pdf_wi(vndf_ggx_lobe_of(wo, alpha), wi);
 }

@@ -84,7 +84,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
 // u: u.x the azimuth of the cap, u.y its height.
 //     The azimuth jumps where n.z changes sign.
 // return: unit vector wm with wm . n >= 0 to rounding, density vndf_ggx_pdf_wm_benyoub2024(wo, n, wm, alpha).
-// Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number), 1.5 behind the surface; double 1.5, 1.5.
+// Accuracy: angle to the exact map, 99th percentile: 0.75 eps (1 + condition number), 0.75 behind the surface; double 0.75, 0.75.
 //     wo . n carries the rounding of both vectors: the condition number is about 1 / sqrt((wo . n)^2 +
 //     alpha^2).
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL alpha,
