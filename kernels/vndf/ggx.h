@@ -121,8 +121,10 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi)
     // Made dependent on wo's root, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
     VNDF_REAL kz = wi.z * (lobe.axis.t < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(134217728.0));
     VNDF_REAL t_i = VNDF_SQRT(VNDF_FMA(kz, kz, VNDF_FMA(kx, kx, ky * ky)));
-    VNDF_REAL weight = wi.z * lobe.axis.height / VNDF_FMA(lobe.axis.t, wi.z, t_i * lobe.wo_z);
-    return lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0) ? vndf_impl_share(weight) : VNDF_R(0.0);
+    VNDF_REAL both = VNDF_FMA(lobe.axis.t, wi.z, t_i * lobe.wo_z);
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+    VNDF_REAL weight = wi.z * lobe.axis.height / (above ? both : VNDF_R(1.0));
+    return above ? vndf_impl_share(weight) : VNDF_R(0.0);
 }
 
 // The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi of a perfectly conducting mirror.

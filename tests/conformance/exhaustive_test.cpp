@@ -42,13 +42,13 @@ const std::vector<Planted>& planted() {
     static const std::vector<Planted> all{
         {"ggx_dupuy2023.h",
          "vndf_ggx_sample_wm_dupuy2023",
-         "return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(wo, alpha, u));",
-         "vndf_impl_ggx_dupuy2023(wo, alpha, u)",
+         "return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(vndf_ggx_lobe_of(wo, alpha), u));",
+         "vndf_impl_ggx_dupuy2023(vndf_ggx_lobe_of(wo, alpha), u)",
          {not_finite, longer, "d.z = at ? -d.z : d.z;", away, no_density}},
         {"ggx_eto2023.h",
          "vndf_ggx_sample_wi_eto2023",
-         "return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(wo, alpha, u));",
-         "vndf_impl_ggx_eto2023(wo, alpha, u)",
+         "return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(vndf_ggx_lobe_of(wo, alpha), u));",
+         "vndf_impl_ggx_eto2023(vndf_ggx_lobe_of(wo, alpha), u)",
          {not_finite, longer, down, back, no_density}}};
     return all;
 }

@@ -14,6 +14,6 @@
     {"polygon: 1 + k z of alphas below 1 for all",
      "ggx_eto2023_polygon.h",
      "bound.height = wide && front ? wide_height : height;",
-     "bound.height = height;",
+     "bound.height = wide && front ? v.axis.height : height;",
      "vndf_ggx_sample_wi_eto2023_polygon",
      {"pointwise, front"}},

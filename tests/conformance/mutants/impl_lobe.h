@@ -10,7 +10,7 @@
      "h.y = VNDF_FMA(-error, ey, hy);",
      "h.y = VNDF_FMA(error, ey, hy);",
      "vndf_ggx_sample_wm_dupuy2023",
-     {"normal faces wo", "pointwise, core"}},
+     {"normal faces wo", "pointwise, back"}},
     {"u1 and u2 swapped: the same distribution, another map",
      "impl/lobe.h",
      "VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), l2",

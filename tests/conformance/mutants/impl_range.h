@@ -18,5 +18,5 @@
      "impl/range.h",
      "return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;",
      "return low;",
-     "vndf_ggx_sample_wm_dupuy2023",
+     "vndf_ggx_sample_wm_walter2007",
      {"finite for finite arguments"}},
