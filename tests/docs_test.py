@@ -40,4 +40,5 @@ assert docs.with_tables(spoilt(bench, r"(\| Mitsuba GGX \| )[0-9.]+", r"\g<1>0.1
 assert docs.with_files(spoilt(readme, r"kernel void sample_metal", "kernel void sample")) == readme
 assert docs.with_outputs(spoilt(host, r"0x1\.580024p-2", "0x1.580025p-2"), build) == host
 assert docs.with_accuracy(spoilt(cap, r"(// Accuracy: [^:]*: )\d+", r"\g<1>99"), build) == (cap, [])
-assert docs.with_accuracy(cap.replace("// Accuracy:", "// Precision:"), build)[1] == ["vndf_ggx_sample_wm_dupuy2023"]
+assert docs.with_accuracy(cap.replace("// Accuracy:", "// Precision:"), build)[1] == [
+    "vndf_ggx_sample_wm_dupuy2023", "vndf_ggx_sample_wm_dupuy2023_lobe"]

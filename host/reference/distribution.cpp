@@ -46,10 +46,14 @@ const Distribution::Known& Distribution::known(std::string_view density) {
     using enum Known::Variable;
     static const Known all[] = {
         {"vndf_ggx_pdf_wm", Kind::ggx, wm, ggx_dupuy2023<double>},
+        {"vndf_ggx_pdf_wm_lobe", Kind::ggx, wm, ggx_dupuy2023<double>},
         {"vndf_ggx_pdf_wi", Kind::ggx, wi, ggx_reflection},
+        {"vndf_ggx_pdf_wi_lobe", Kind::ggx, wi, ggx_reflection},
         {"vndf_ggx_pdf_wm_benyoub2024", Kind::ggx, wm_world, ggx_benyoub2024<double>},
         {"vndf_ggx_pdf_wi_eto2023", Kind::bounded, wi, ggx_eto2023<double>},
+        {"vndf_ggx_pdf_wi_eto2023_lobe", Kind::bounded, wi, ggx_eto2023<double>},
         {"vndf_ggx_pdf_wi_eto2023_polygon", Kind::bounded, wi, ggx_eto2023_polygon<double>, true},
+        {"vndf_ggx_pdf_wi_eto2023_polygon_lobe", Kind::bounded, wi, ggx_eto2023_polygon<double>, true},
         {"vndf_ggx_pdf_wi_conic2026", Kind::conic, wi, ggx_conic2026<double>},
         {"vndf_ggx_pdf_wi_conic2026_lobe", Kind::conic, wi, ggx_conic2026<double>},
         {"vndf_ggx_pdf_wm_walter2007", Kind::ggx, wm_plain, ggx_walter2007<double>},

@@ -132,11 +132,16 @@ struct Entry {
     X(vndf_ggx_sample_wm_heitz_deon2014, ggx_heitz_deon2014, wo_alpha_u)             \
     X(vndf_ggx_sample_wm_heitz_deon2014_exact, ggx_heitz_deon2014_exact, wo_alpha_u) \
     X(vndf_ggx_sample_wm_heitz2017, ggx_heitz2017, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_heitz2017_lobe, ggx_heitz2017, wo_alpha_u) \
     X(vndf_ggx_sample_wm_heitz2018, ggx_heitz2018, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_heitz2018_lobe, ggx_heitz2018, wo_alpha_u) \
     X(vndf_ggx_sample_wm_dupuy2023, ggx_dupuy2023, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_dupuy2023_lobe, ggx_dupuy2023, wo_alpha_u) \
     X(vndf_ggx_sample_wm_benyoub2024, ggx_benyoub2024, wo_n_alpha1_u)                \
     X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                           \
+    X(vndf_ggx_sample_wi_eto2023_lobe, ggx_eto2023, wo_alpha_u) \
     X(vndf_ggx_sample_wi_eto2023_polygon, ggx_eto2023_polygon, wo_alpha_u)           \
+    X(vndf_ggx_sample_wi_eto2023_polygon_lobe, ggx_eto2023_polygon, wo_alpha_u) \
     X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                       \
     X(vndf_ggx_sample_wi_conic2026_lobe, ggx_conic2026, wo_alpha_u)                  \
     X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)            \
@@ -208,6 +213,11 @@ struct Terms {
         const Vec3<R> wo = in.vector(), wi = in.vector();
         const R ax = in.alpha(), ay = in.alpha();
         return reference::g2<N>(view(wo, ax, ay), view(wi, ax, ay));
+    }
+    static R weight(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return reference::weight<N>(view(wo, ax, ay), view(wi, ax, ay));
     }
     static R g2_separable(Reader<R> in) {
         const Vec3<R> wo = in.vector(), wi = in.vector();
@@ -320,7 +330,13 @@ constexpr Entry<R> entries[] = {
     VNDF_BOTH(ndf) VNDF_BOTH(p22) VNDF_BOTH(lambda) VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2)
     VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
 #undef VNDF_BOTH
+    VNDF_ENTRIES(ggx, Ggx, weight)
 #undef VNDF_ENTRIES
+    {"vndf_ggx_weight_lobe", evaluate_term<R, Terms<Ggx, R>::weight>},
+    {"vndf_ggx_pdf_wm_lobe", evaluate_term<R, Terms<Ggx, R>::pdf_wm>},
+    {"vndf_ggx_pdf_wi_lobe", evaluate_term<R, Terms<Ggx, R>::pdf_wi>},
+    {"vndf_ggx_pdf_wi_eto2023_lobe", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},
+    {"vndf_ggx_pdf_wi_eto2023_polygon_lobe", evaluate_term<R, ggx_pdf_wi_bounded_of<R, polygon_bound<R>>>},
     {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},
     {"vndf_ggx_pdf_wi_eto2023_polygon", evaluate_term<R, ggx_pdf_wi_bounded_of<R, polygon_bound<R>>>},
     {"vndf_ggx_pdf_wi_conic2026", evaluate_term<R, ggx_pdf_wi_conic2026_of<R>>},
@@ -370,8 +386,8 @@ double condition(std::string_view sampler, const double* in, Precision precision
 
 double cap_margin(std::string_view density, const double* in, Precision precision) {
     constexpr double no_cap = std::numeric_limits<double>::infinity();
-    const bool polygon = density == "vndf_ggx_pdf_wi_eto2023_polygon";
-    if (!polygon && density != "vndf_ggx_pdf_wi_eto2023") return no_cap;  // other arguments, too
+    const bool polygon = density.starts_with("vndf_ggx_pdf_wi_eto2023_polygon");
+    if (!density.starts_with("vndf_ggx_pdf_wi_eto2023")) return no_cap;  // other arguments, too
     Reader<double> reader{in, precision};
     const Vec3<double> wo = reader.vector(), wi = reader.vector();
     if (!(wo.z > 0)) return no_cap;

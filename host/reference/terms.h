@@ -99,6 +99,13 @@ R g2(const View<R>& o, const View<R>& i) {
     return o.up > 0 && i.up > 0 ? R(1 / (1 + lambda<N>(o) + lambda<N>(i))) : R(0);
 }
 
+// G2 / G1(wo)
+template <class N, class R>
+R weight(const View<R>& o, const View<R>& i) {
+    const R shadow = i.up > 0 ? lambda<N>(i) : R(0), mask = o.up > 0 ? lambda<N>(o) : R(0);
+    return o.up > 0 && i.up > 0 ? R((1 + mask) / (1 + mask + shadow)) : R(0);
+}
+
 // max(wo . wm, 0) D(wm) / sigma(wo)
 template <class N, class R>
 R pdf_wm(const Vec3<R>& wo, const Vec3<R>& wm, const R& ax, const R& ay) {

@@ -86,6 +86,18 @@
 #define VNDF_CALL_CONIC2026_LOBE_WI vndf_ggx_conic2026_lobe(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL3(wi)
 #define VNDF_ARGUMENTS_CONIC2026_LOBE_WI "lobe, wi"
 
+#define VNDF_SCALARS_LOBE_U(S) VNDF_SCALARS_WO_ALPHA_U(S)
+#define VNDF_CALL_LOBE_U vndf_ggx_lobe_of(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL_U
+#define VNDF_ARGUMENTS_LOBE_U "lobe, u"
+
+#define VNDF_SCALARS_LOBE_WI(S) VNDF_SCALARS_WO_WI_ALPHA(S)
+#define VNDF_CALL_LOBE_WI vndf_ggx_lobe_of(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL3(wi)
+#define VNDF_ARGUMENTS_LOBE_WI "lobe, wi"
+
+#define VNDF_SCALARS_LOBE_WM(S) VNDF_SCALARS_WO_WM_ALPHA(S)
+#define VNDF_CALL_LOBE_WM vndf_ggx_lobe_of(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL3(wm)
+#define VNDF_ARGUMENTS_LOBE_WM "lobe, wm"
+
 #define VNDF_ARGUMENTS_WO_ALPHA "wo, alpha"
 
 #define VNDF_RESULTS_VALUE(S) S(value, )

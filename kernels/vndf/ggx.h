@@ -7,6 +7,7 @@
 #ifndef VNDF_GGX_H
 #define VNDF_GGX_H
 
+#include "ggx_lobe.h"
 #include "impl/exact.h"
 #include "impl/mirror.h"
 #include "impl/slopes.h"
@@ -115,6 +116,43 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
     return g1 * vndf_ggx_g1(wi, alpha_i);
 }
 
+VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
+    // Made dependent on wo's root, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    VNDF_REAL kz = wi.z * (lobe.axis.t < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(134217728.0));
+    VNDF_REAL t_i = VNDF_SQRT(VNDF_FMA(kz, kz, VNDF_FMA(kx, kx, ky * ky)));
+    VNDF_REAL both = VNDF_FMA(lobe.axis.t, wi.z, t_i * lobe.wo_z);
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+    VNDF_REAL weight = wi.z * lobe.axis.height / (above ? both : VNDF_R(1.0));
+    return above ? vndf_impl_share(weight) : VNDF_R(0.0);
+}
+
+// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi of a perfectly conducting mirror.
+// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = i (o + t_o) / (t_o i + t_i o), o = wo.z, i = wi.z.
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 8.
+VNDF_FN VNDF_REAL vndf_ggx_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_ggx_weight(vndf_ggx_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 8 eps; double 8.
+VNDF_FN VNDF_REAL vndf_ggx_weight_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_weight(lobe, wi);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wm(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm) {
+    VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, lobe.alpha_x, lobe.alpha_y);
+    VNDF_REAL twice_sigma = vndf_impl_lobe_twice_sigma(lobe);
+    VNDF_REAL cos_om = vndf_impl_dot(lobe.wo_x, lobe.wo_y, lobe.wo_z, wm.x, wm.y, wm.z);
+    VNDF_REAL area =
+        (VNDF_2_PI / ((q * lobe.alpha_x) * (q * lobe.alpha_y))) * vndf_impl_max(cos_om, VNDF_R(0.0));
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
+    int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
+    return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
 // The distribution of visible normals: the density of every vndf_ggx_sample_wm_* but walter2007.
 // Source: Dupuy & Benyoub 2023, Equation 1, as max(wo . wm, 0) D(wm) / sigma(wo).
 // wo: unit vector, local frame, anywhere on the sphere (at -z nothing is visible: 0).
@@ -123,14 +161,19 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
 // Accuracy: 14 eps; double 13.
 //     Also where wo . wm or 1 + wo.z nearly vanish.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
-    VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
-    VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
-    VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL area = (VNDF_2_PI / ((q * alpha_x) * (q * alpha_y))) * vndf_impl_max(cos_om, VNDF_R(0.0));
-    VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
-    int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
-    return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, alpha), wm);
+}
+
+// The same for many wm and one wo and alpha.
+// Accuracy: 14 eps; double 13.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm) {
+    return vndf_impl_ggx_pdf_wm(lobe, wm);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wi(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    struct vndf_impl_half h =
+        vndf_impl_half_of(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), wi, lobe.alpha_x, lobe.alpha_y);
+    return vndf_impl_ggx_reflection_pdf(h, vndf_impl_lobe_twice_sigma(lobe), lobe.alpha_x, lobe.alpha_y);
 }
 
 // The density of the reflection of wo about a visible normal.
@@ -142,10 +185,13 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use a sampler's _with_pdf form
 //     there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
-    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, alpha_x, alpha_y);
-    VNDF_REAL twice_sigma = vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
-    return vndf_impl_ggx_reflection_pdf(h, twice_sigma, alpha_x, alpha_y);
+    return vndf_impl_ggx_pdf_wi(vndf_ggx_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 16 eps; double 20.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_pdf_wi(lobe, wi);
 }
 
 // The density of the plain NDF sampler: D(wm) wm.z.

@@ -8,64 +8,77 @@
 #define VNDF_GGX_ETO2023_H
 
 #include "ggx.h"
-#include "impl/caps.h"
+#include "impl/lobe.h"
 #include "impl/mirror.h"
 
-// Equations 5 and 6: 1 - k without a difference; k counts beside 1. The conservative alpha is at most 1.
+// A cap above -k cos theta, by its gap 1 - k: gap z and (1 + k) z in a lobe's numbers, and height - gap z, which stands for 1 +
+// k cos theta.
 struct vndf_impl_bound {
-    VNDF_REAL k, rest;
+    VNDF_REAL gap_z, other_z, height;
 };
-VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL sine,
-                                                   VNDF_REAL z2, int front) {
+
+// Equations 5 and 6: 1 - k without a difference. The conservative alpha is at most 1, and k = 1 below the surface.
+// s^2 + z^2 and s^2 for s = |wo| + |wo_xy|, whatever the length of wo.
+VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(struct vndf_ggx_lobe v) {
     struct vndf_impl_bound bound;
-    VNDF_REAL a = vndf_impl_min(vndf_impl_min(alpha_x, alpha_y), VNDF_R(1.0)), a2 = a * a;
-    VNDF_REAL s = VNDF_R(1.0) + sine, s2 = s * s;
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_FMA(a2, z2, s2);
-    bound.rest = front ? a2 * (s2 + z2) * rcp : VNDF_R(0.0);
-    bound.k = VNDF_R(1.0) - bound.rest;
+    VNDF_REAL a = vndf_impl_min(vndf_impl_min(v.alpha_x, v.alpha_y), VNDF_R(1.0)), a2 = a * a;
+    VNDF_REAL z2 = v.wo_z * v.wo_z, sine2 = VNDF_FMA(v.wo_x, v.wo_x, v.wo_y * v.wo_y);
+    VNDF_REAL s2 = VNDF_FMA(VNDF_R(2.0), sine2 + VNDF_SQRT(sine2 * (sine2 + z2)), z2);
+    VNDF_REAL gap = a2 * (s2 + z2) / VNDF_FMA(a2, z2, s2);
+    gap = v.wo_z > VNDF_R(0.0) ? gap : VNDF_R(0.0);
+    bound.gap_z = gap * v.axis.z;
+    bound.other_z = VNDF_FMA(VNDF_R(2.0), v.axis.z, -bound.gap_z);
+    bound.height = v.axis.height - bound.gap_z;
     return bound;
 }
 
-// The cap of ggx_dupuy2023.h with b = 1 + k z for P and 2 - b = k Q + (1 - k) for Q; the half vector, divided
-// by sqrt(b), has the height (1 - u2 + (1 - k) z / b) sqrt(b). k = 1 for wo.z <= 0, where this is the plain cap: b_front
-// and n_front = k wo.z + |v| count above the surface alone. wo2 = |wo|^2.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_bounded(VNDF_REAL3 wo, struct vndf_impl_view v,
-                                                      struct vndf_impl_cap cap, struct vndf_impl_bound bound,
-                                                      VNDF_REAL b_front, VNDF_REAL n_front, VNDF_REAL wo2,
-                                                      VNDF_REAL2 u) {
-    struct vndf_impl_sample o;
+// The cap of impl/lobe.h above o_z = -k cos theta: h.z = rest b + (1 - k) z and R^2 = u2 (rest b^2 + l^2 + (1 - k^2) z^2), b =
+// the height of the bound.
+VNDF_FN struct vndf_impl_vector vndf_impl_bounded_half(struct vndf_ggx_lobe v, struct vndf_impl_bound b,
+                                                       VNDF_REAL2 u) {
+    struct vndf_impl_cap_point p;
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    int front = v.z > VNDF_R(0.0);
-    VNDF_REAL b = front ? b_front : cap.p;
-    VNDF_REAL complement = VNDF_FMA(bound.k, cap.q, bound.rest);
-    VNDF_REAL sqrt_b = front ? VNDF_SQRT(b) : cap.sqrt_p, rcp_b = VNDF_R(1.0) / sqrt_b;
-    VNDF_REAL tangent = front ? cap.sine * rcp_b : cap.sqrt_q;
-    VNDF_REAL height = front ? VNDF_FMA(bound.rest * cap.z * rcp_b, rcp_b, rest) : rest;
-    VNDF_REAL square = u2 * VNDF_FMA(rest, b, complement), sin_o = VNDF_SQRT(square);
-    struct vndf_impl_cap_half h = vndf_impl_cap_half_of(
-        vndf_impl_azimuth_x(v), vndf_impl_azimuth_y(v), tangent, tangent * tangent,
-        sin_o * vndf_impl_circle_cos(u1), sin_o * vndf_impl_circle_sin(u1), square,
-        height * vndf_impl_cap_excess(u2, rest, b, cap.q, VNDF_FMA(bound.k, cap.z, cap.z)), height * sqrt_b);
-    struct vndf_impl_mirror m = vndf_impl_mirror_of(wo.x, wo.y, wo.z, h.x, h.y, h.z, v.alpha_x, v.alpha_y);
-    VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, m.z * m.z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
-    o.x = m.x * rcp;
-    o.y = m.y * rcp;
-    o.z = m.z * rcp;
-    VNDF_REAL n = (front ? n_front : vndf_impl_hidden_area(v)) / VNDF_SQRT(wo2);
-    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n, v.alpha_x, v.alpha_y);
-    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), rest_b = rest * b.height;
+    VNDF_REAL part = VNDF_FMA(rest_b, b.height, b.gap_z * b.other_z);
+    p.z = rest_b + b.gap_z;
+    p.square = u2 * (part + l2);
+    VNDF_REAL level = p.z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -p.z), steep = VNDF_FMA(u2, part, -rest * l2);
+    p.excess = v.axis.level ? level : steep;
+    p.both = p.square + l2;
+    return vndf_impl_cap_sum(v, p, u1);
+}
+
+// The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k
+// wo.z + |v|.
+VNDF_FN struct vndf_impl_sample vndf_impl_bounded_reflection(struct vndf_ggx_lobe v, VNDF_REAL height,
+                                                             struct vndf_impl_vector h) {
+    struct vndf_impl_sample o;
+    // Reflect about g of any length: no rounding of g can tilt the mirror.
+    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
+    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
+    VNDF_REAL cosine = VNDF_FMA(v.wo_x, gx, VNDF_FMA(v.wo_y, gy, v.wo_z * h.z));
+    VNDF_REAL twice = VNDF_R(2.0) * cosine / g2;
+    o.x = VNDF_FMA(twice, gx, -v.wo_x);
+    o.y = VNDF_FMA(twice, gy, -v.wo_y);
+    o.z = VNDF_FMA(twice, h.z, -v.wo_z);
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), length = VNDF_SQRT(o2),
+              rcp = VNDF_R(1.0) / length;
+    o.x *= rcp;
+    o.y *= rcp;
+    o.z *= rcp;
+    VNDF_REAL ratio = g2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
+    // Made dependent, so that the two quotients are not packed (impl/stretch.h); the other choice is never taken.
+    VNDF_REAL n = height / v.axis.weight, area = n < VNDF_R(0.0) ? VNDF_R(1.0) : v.alpha_x * v.alpha_y;
+    VNDF_REAL density = (VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * ratio * length) / area;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(density, n);
+    o.pdf = height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
 
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_cap cap = vndf_impl_cap_of(v);
-    // Only the direction of wo counts: its length is divided out where the listing takes it for 1.
-    VNDF_REAL tangent2 = VNDF_FMA(wo.x, wo.x, wo.y * wo.y), wo2 = VNDF_FMA(wo.z, wo.z, tangent2);
-    struct vndf_impl_bound bound = vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, VNDF_SQRT(tangent2 / wo2),
-                                                       wo.z * wo.z / wo2, v.z > VNDF_R(0.0));
-    return vndf_impl_ggx_bounded(wo, v, cap, bound, VNDF_FMA(bound.k, cap.z, VNDF_R(1.0)),
-                                 VNDF_FMA(bound.k, v.z, v.r), wo2, u);
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
+    struct vndf_impl_bound bound = vndf_impl_ggx_bound(v);
+    return vndf_impl_bounded_reflection(v, bound.height, vndf_impl_bounded_half(v, bound, u));
 }
 
 // A reflection of wo by the bounded cap: the visible normal and the mirror step in one.
@@ -77,27 +90,37 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023(VNDF_REAL3 wo, VNDF_REAL2 
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
 // Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_ggx_eto2023(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_ggx_eto2023(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
 // The same; w: its density per steradian of wi, from the sampler's own terms.
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
-// The density of a cap of reflections above o_z = -k z, n_front as above.
-VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_impl_view v,
-                                            VNDF_REAL gap, VNDF_REAL n_front) {
-    struct vndf_impl_half h = vndf_impl_half_of(wo, wi, v.alpha_x, v.alpha_y);
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
+VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_ggx_eto2023(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_ggx_eto2023(lobe, u));
+}
+
+// The density of a cap of reflections above o_z = -k z: D / (2 n), n as above.
+VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(struct vndf_ggx_lobe v, VNDF_REAL3 wi, struct vndf_impl_bound b) {
+    struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(v.wo_x, v.wo_y, v.wo_z), wi, v.alpha_x, v.alpha_y);
     // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
-    VNDF_REAL limit = gap * wo.z * h.scale;
+    VNDF_REAL limit = b.gap_z * VNDF_R(7.450580596923828125e-09) * h.scale;
     VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);
     // Rounding moves each component of wi, and so of h, by 2^-24, a sampler by little more: four times the effect on both
     // terms.
     VNDF_REAL slack = VNDF_R(4.0) * VNDF_EPSILON * h.scale *
                       (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
-    int inside = wo.z <= VNDF_R(0.0) || excess > -slack;
-    VNDF_REAL n = wo.z > VNDF_R(0.0) ? n_front : vndf_impl_hidden_area(v);
+    int inside = v.wo_z <= VNDF_R(0.0) || excess > -slack;
+    VNDF_REAL n = b.height * VNDF_R(7.450580596923828125e-09) / v.axis.weight;
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
     return inside ? pdf : VNDF_R(0.0);
 }
@@ -111,10 +134,14 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf
 //     form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_bound bound = vndf_impl_ggx_bound(
-        v.alpha_x, v.alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z * wo.z, wo.z > VNDF_R(0.0));
-    return vndf_impl_ggx_bounded_pdf(wo, wi, v, bound.rest, VNDF_FMA(bound.k, wo.z, v.r));
+    struct vndf_ggx_lobe lobe = vndf_ggx_lobe_of(wo, alpha);
+    return vndf_impl_ggx_bounded_pdf(lobe, wi, vndf_impl_ggx_bound(lobe));
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 16 eps; double 19.
+VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_bounded_pdf(lobe, wi, vndf_impl_ggx_bound(lobe));
 }
 
 #endif

@@ -43,6 +43,7 @@
 #include "geometry.h"
 
 #include "ggx.h"
+#include "ggx_lobe.h"
 #include "ggx_heitz_deon2014.h"
 #include "ggx_heitz2017.h"
 #include "ggx_heitz2018.h"

@@ -37,6 +37,7 @@ inline const std::vector<Mutant>& mutants() {
 #include "mutants/impl_caps.h"
 #include "mutants/impl_cone.h"
 #include "mutants/impl_exact.h"
+#include "mutants/impl_lobe.h"
 #include "mutants/impl_math.h"
 #include "mutants/impl_mirror.h"
 #include "mutants/impl_polynomials.h"

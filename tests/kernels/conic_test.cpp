@@ -211,22 +211,21 @@ TEST_CASE("the polygon's cap holds every reflection above the horizon, and Equat
     double outside = 0, looser = 0, tighter = 0;
     for (int i = 0; i < 4000; ++i) {
         const Lobe at = random_lobe(random, 1e-3, 10);
-        const double sine = std::hypot(at.x, at.y), z2 = at.z * at.z;
-        const vndf_impl_view v = vndf_impl_stretch({at.x, at.y, at.z}, {at.alpha_x, at.alpha_y});
-        const vndf_impl_cap cap = vndf_impl_cap_of(v);
-        const vndf_impl_polygon polygon =
-            vndf_impl_ggx_polygon(v.alpha_x, v.alpha_y, at.x, at.y, sine, z2, cap, 1);
-        const vndf_impl_bound equation6 = vndf_impl_ggx_bound(v.alpha_x, v.alpha_y, sine, z2, 1);
-        looser = std::max(looser, polygon.bound.k - equation6.k);
-        tighter = std::max(tighter, equation6.k - polygon.bound.k);
-        CHECK(polygon.b == Catch::Approx(1 + polygon.bound.k * cap.z).margin(1e-10));
+        const double z2 = at.z * at.z;
+        const vndf_ggx_lobe v = vndf_ggx_lobe_of({at.x, at.y, at.z}, {at.alpha_x, at.alpha_y});
+        const vndf_impl_bound polygon = vndf_impl_ggx_polygon(v), equation6 = vndf_impl_ggx_bound(v);
+        const double k = 1 - polygon.gap_z / v.axis.z, k6 = 1 - equation6.gap_z / v.axis.z;
+        looser = std::max(looser, k - k6);
+        tighter = std::max(tighter, k6 - k);
+        CHECK(polygon.height == Catch::Approx(v.axis.t + k * v.axis.z).margin(1e-10 * v.axis.t));
+        CHECK(polygon.other_z == Catch::Approx((1 + k) * v.axis.z).margin(1e-10 * v.axis.t));
         double lowest = 1;  // of (o_z / cos + k) on the horizon, o_z / cos = 1 / q - 1
         for (int j = 0; j < 512; ++j) {
             const double phi = 2 * VNDF_PI * (j + random.uniform()) / 512;
             const double hx = at.x + std::cos(phi), hy = at.y + std::sin(phi);
             const double h2 = hx * hx + hy * hy + z2;
             const double gx = hx / at.alpha_x, gy = hy / at.alpha_y;
-            lowest = std::min(lowest, h2 / (gx * gx + gy * gy + z2) - 1 + polygon.bound.k);
+            lowest = std::min(lowest, h2 / (gx * gx + gy * gy + z2) - 1 + k);
         }
         outside = std::max(outside, -lowest);
     }

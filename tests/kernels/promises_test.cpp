@@ -158,3 +158,20 @@ TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
             CHECK(positive > rows.rows() / 4);
         }
 }
+
+TEST_CASE("an alpha beyond its range counts as the end of the range") {
+    for (const Real real : reals)
+        for (const Function& function : functions())
+            for (std::size_t j = 0; j < function.inputs.size(); ++j) {
+                if (function.inputs[j].rfind("alpha", 0) != 0) continue;
+                INFO(function.name << ", " << function.inputs[j]);
+                for (const auto& [beyond, end] :
+                     {std::pair{1e30, 1e3}, std::pair{0.0, real == Real::f32 ? double(1e-8f) : 1e-8}}) {
+                    Table at_end = digest_inputs(function, 256, real), outside = at_end;
+                    for (double& a : at_end.columns[j]) a = end;
+                    for (double& a : outside.columns[j]) a = beyond;
+                    CHECK(evaluate_on_host(real, function.name, outside) ==
+                          evaluate_on_host(real, function.name, at_end));
+                }
+            }
+}

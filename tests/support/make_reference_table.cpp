@@ -616,6 +616,10 @@ std::map<std::string, Evaluation> evaluations() {
                                               lambda(ndf, vec(in, 3), in[6], in[7])))
                                   : Real(0)};
         };
+        all[prefix + "weight"] = [ndf, both](const Reals& in) {
+            const Real mask = both(in) ? Real(1 + lambda(ndf, vec(in, 0), in[6], in[7])) : Real(1);
+            return Reals{both(in) ? Real(mask / (mask + lambda(ndf, vec(in, 3), in[6], in[7]))) : Real(0)};
+        };
         all[prefix + "g2_separable"] = [ndf, both](const Reals& in) {
             return Reals{both(in) ? Real(in[2] / sigma(ndf, vec(in, 0), in[6], in[7]) * in[5] /
                                          sigma(ndf, vec(in, 3), in[6], in[7]))
@@ -901,6 +905,7 @@ void terms(Table& table) {
             if (k % 5 == 0 && wi[2] != 0) {
                 table.row(prefix + "g2", join({w, wi, alpha}));
                 table.row(prefix + "g2_separable", join({w, wi, alpha}));
+                if (prefix == "vndf_ggx_") table.row(prefix + "weight", join({w, wi, alpha}));
             }
             // Behind the surface a Beckmann density of small alpha is steeper than double arguments resolve.
             if (k % 3 == 0 || k % 7 == 3) {

@@ -49,11 +49,4 @@ VNDF_FN struct vndf_impl_cap_half vndf_impl_cap_half_of(VNDF_REAL dx, VNDF_REAL 
     return h;
 }
 
-// u2 b - q = z_b - (1 - u2) b, where b - q = z_b: by the form whose difference is not the smaller.
-VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b, VNDF_REAL q,
-                                       VNDF_REAL z_b) {
-    int at_rim = rest < VNDF_R(0.5);
-    return VNDF_FMA(at_rim ? -rest : u2, b, at_rim ? z_b : -q);
-}
-
 #endif

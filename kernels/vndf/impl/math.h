@@ -83,16 +83,14 @@ VNDF_FN VNDF_REAL vndf_impl_sin_2pi(VNDF_REAL x) {
 
 // sin(2 pi u) for u in [0, 1]. Accuracy: absolute 1.43 / 2; relative 1.8 / 3 and 1.43 ulp for u < 1/2.
 VNDF_FN VNDF_REAL vndf_impl_circle_sin(VNDF_REAL u) {
-    VNDF_REAL b = u > VNDF_R(0.5) ? u - VNDF_R(1.0) : u;  // exact
-    VNDF_REAL c = vndf_impl_abs(b);
-    VNDF_REAL m = vndf_impl_min(c, VNDF_R(0.5) - c);  // exact where chosen
-    return vndf_impl_sin_2pi(b < VNDF_R(0.0) ? -m : m);
+    // Folded onto [-1/4, 1/4]: u, 1/2 - u or u - 1, exact where chosen.
+    VNDF_REAL fold = vndf_impl_min(u, VNDF_R(0.5) - u);
+    return vndf_impl_sin_2pi(vndf_impl_max(fold, u - VNDF_R(1.0)));
 }
 
 // cos(2 pi u) for u in [0, 1]. Accuracy: absolute 1.59 / 2.
 VNDF_FN VNDF_REAL vndf_impl_circle_cos(VNDF_REAL u) {
-    VNDF_REAL b = u > VNDF_R(0.5) ? VNDF_R(1.0) - u : u;
-    return vndf_impl_sin_2pi(VNDF_R(0.25) - b);
+    return vndf_impl_sin_2pi(VNDF_R(0.25) - vndf_impl_min(u, VNDF_R(1.0) - u));
 }
 
 // log(x) for normal x > 0. Accuracy: 1.4 / 2; 0.85 ulp.

@@ -113,7 +113,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? hz * rcp : VNDF_R(1.0);
     VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = length2 / h2;
-    VNDF_REAL pdf = VNDF_1_PI * (weight * length / (h2 * alpha_x * alpha_y)) * ratio;
+    VNDF_REAL pdf = VNDF_1_PI * (weight * ratio * length) / (h2 * alpha_x * alpha_y);
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }

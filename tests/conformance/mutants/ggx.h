@@ -2,14 +2,15 @@
 {"the density of visible normals by G1 / cos",
  "ggx.h",
  "VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);",
- "VNDF_REAL pdf = area * vndf_ggx_g1(wo, alpha) / (VNDF_R(2.0) * wo.z);",
+ "VNDF_REAL pdf = area * vndf_ggx_g1(VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), "
+ "VNDF_MAKE2(lobe.alpha_x, lobe.alpha_y)) / (VNDF_R(2.0) * lobe.wo_z);",
  "vndf_ggx_pdf_wm",
  {"pointwise, maximum"}},
     // Those of users.
     {"the density of visible normals without G1",
      "ggx.h",
      "VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);",
-     "VNDF_REAL pdf = area / (VNDF_R(2.0) * wo.z);",
+     "VNDF_REAL pdf = area / (VNDF_R(2.0) * lobe.wo_z);",
      "vndf_ggx_pdf_wm",
      {"pointwise", "integral"}},
     {"height-correlated shadowing taken for separable",
@@ -20,11 +21,8 @@
      {"pointwise, maximum"}},
     {"alpha squared in the density alone",
      "ggx.h",
-     "VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {\n"
-     "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);",
-     "VNDF_FN VNDF_REAL vndf_ggx_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {\n"
-     "    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x * alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y * "
-     "alpha.y);",
+     "return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, alpha), wm);",
+     "return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, VNDF_MAKE2(alpha.x * alpha.x, alpha.y * alpha.y)), wm);",
      "vndf_ggx_pdf_wm",
      {"pointwise, maximum"}},
     {"the slope's distribution: a small slope counts as negative",
@@ -45,4 +43,10 @@
      "return wm.z > VNDF_R(0.0) ? vndf_impl_finite(d)",
      "return wm.z >= VNDF_R(0.0) ? vndf_impl_finite(d)",
      "vndf_ggx_ndf",
+     {"pointwise, maximum"}},
+    {"the weight of a reflection with the length of wo for its area",
+     "ggx.h",
+     "VNDF_REAL weight = wi.z * lobe.axis.height /",
+     "VNDF_REAL weight = wi.z * lobe.axis.t /",
+     "vndf_ggx_weight",
      {"pointwise, maximum"}},
