@@ -11,11 +11,9 @@
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
-    VNDF_REAL u1 = vndf_impl_u(u.x);
-    int edge = vndf_impl_slope_is_edge(f.slopes, vndf_impl_slope_is_upper(u1));
-    VNDF_REAL offset = vndf_impl_slope_of_mass(f.slopes, edge, u1);
+    struct vndf_impl_visible_slope r = vndf_impl_slope_of_mass(f.slopes, vndf_impl_u(u.x));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it.
-    return vndf_impl_beckmann_normal(f, edge, offset, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)), 1);
+    return vndf_impl_beckmann_normal(f, r, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
 }
 
 // A visible normal by inversion of the visible slope distribution.

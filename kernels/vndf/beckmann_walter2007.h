@@ -17,7 +17,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, 
     VNDF_REAL radius = VNDF_SQRT(-logarithm);
     return vndf_impl_beckmann_unstretch(VNDF_R(1.0), VNDF_R(0.0), radius * vndf_impl_circle_cos(u2),
                                         radius * vndf_impl_circle_sin(u2), vndf_impl_alpha(alpha.x),
-                                        vndf_impl_alpha_y(alpha.y), VNDF_1_PI * rest, 0);
+                                        vndf_impl_alpha_y(alpha.y), VNDF_1_PI * rest);
 }
 
 // A normal with density proportional to D(wm) wm.z, whatever the view direction.
