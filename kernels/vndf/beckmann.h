@@ -170,10 +170,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
     struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
     struct vndf_impl_incidence_slopes i = s.slopes;
     struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(vndf_impl_abs(s.x));
-    VNDF_REAL rcp = VNDF_R(1.0) / i.area, e = vndf_impl_slope_gaussian(s, rcp);
+    VNDF_REAL rcp = VNDF_R(1.0) / i.area, half_y = VNDF_R(0.5) * s.y;
+    // For x > 0 what is above; the factor may have either sign there.
     int right = i.front && s.x > VNDF_R(0.0);
-    VNDF_REAL mass = VNDF_FMA(VNDF_R(0.5) * s.y, f.erfcx, right ? -f.ierfcx : f.ierfcx) * e;
-    VNDF_REAL cdf = right ? VNDF_R(1.0) - VNDF_FMA(i.hidden, rcp, mass) : mass;
+    VNDF_REAL body = VNDF_FMA(half_y, f.erfcx, right ? -f.ierfcx : f.ierfcx) * rcp;
+    VNDF_REAL e = vndf_impl_slope_gaussian(s, right ? VNDF_R(1.0) : body);
+    VNDF_REAL cdf = right ? VNDF_R(1.0) - VNDF_FMA(i.hidden, rcp, body * e) : e;
     return s.visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 

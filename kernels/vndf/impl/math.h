@@ -154,7 +154,8 @@ VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
 // x 2^exponent for x >= 0: 0 where that is no normal number, and at most the largest finite one.
 VNDF_FN VNDF_REAL vndf_impl_times_power(VNDF_REAL x, VNDF_INT exponent) {
     VNDF_INT bits = VNDF_AS_INT(x), biased = (bits >> VNDF_IMPL_MANTISSA_BITS) + exponent;
-    int small = x < VNDF_IMPL_LEAST || biased<1, large = biased> 2 * VNDF_IMPL_EXPONENT_BIAS;
+    int small = x < VNDF_IMPL_LEAST || biased < 1;
+    int large = biased > 2 * VNDF_IMPL_EXPONENT_BIAS;
     VNDF_INT kept = small || large ? 0 : exponent;
     VNDF_REAL result = VNDF_AS_REAL(bits + kept * ((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS));
     result = large ? VNDF_REAL_MAX : result;
