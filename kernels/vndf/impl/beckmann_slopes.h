@@ -31,11 +31,11 @@ struct vndf_impl_incidence_slopes {
 };
 VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL steep, int front) {
     struct vndf_impl_incidence_slopes i;
-    VNDF_REAL near = front ? vndf_impl_min(steep, VNDF_DOUBLE ? VNDF_R(9.0) : VNDF_R(6.0)) : VNDF_R(0.0);
+    VNDF_REAL bounded = front ? vndf_impl_min(steep, VNDF_DOUBLE ? VNDF_R(9.0) : VNDF_R(6.0)) : VNDF_R(0.0);
     i.front = front;
     i.steep = steep;
     i.a = vndf_impl_min(steep, VNDF_IMPL_COT_LIMIT);
-    i.gaussian = vndf_impl_moderate_exp(-near * near);
+    i.gaussian = vndf_impl_moderate_exp(-bounded * bounded);
     i.hidden = i.gaussian * vndf_impl_scaled_erfc_of(i.a).ierfcx;
     i.plateau = front ? i.a : VNDF_R(0.0);
     i.area = i.plateau + i.hidden;
@@ -100,9 +100,9 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
     VNDF_REAL close = VNDF_AS_REAL(bits + (one >> 1));
     VNDF_REAL cot = front ? i.a : -i.a, reach = front ? VNDF_R(2.7) : s, least = VNDF_R(0.05) * reach;
     int edge = close < VNDF_R(0.1) * reach;
-    VNDF_REAL near = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
-    VNDF_REAL far = vndf_impl_max(front ? i.a - p : s * p, least);
-    r.y = edge ? near : far;
+    VNDF_REAL beside = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
+    VNDF_REAL inner = vndf_impl_max(front ? i.a - p : s * p, least);
+    r.y = edge ? beside : inner;
     // Where a is large, a - y has lost the digits of x.
     r.x = front && !edge ? vndf_impl_min(p, i.a - least) : cot - r.y;
     return r;
@@ -139,9 +139,9 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_inc
     VNDF_REAL low = VNDF_FMA(cubic, VNDF_R(0.041666666666666666667), VNDF_FMA(VNDF_R(2.0), b, linear));
     // Z grows by high v / (low y) of its size. Never as far as to the edge.
     VNDF_REAL n = vndf_impl_max(v * rcp * high, VNDF_R(-0.9999999) * low);
-    VNDF_REAL move = y * (n / (low + VNDF_SQRT(low * (low + n))));
-    r.y = y + move;
-    r.x = x - move;
+    VNDF_REAL shift = y * (n / (low + VNDF_SQRT(low * (low + n))));
+    r.y = y + shift;
+    r.x = x - shift;
     return r;
 }
 
@@ -226,7 +226,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
                                                              VNDF_REAL y, VNDF_REAL alpha_x,
                                                              VNDF_REAL alpha_y, VNDF_REAL weight) {
     struct vndf_impl_sample m;
-    VNDF_REAL gx = alpha_x * VNDF_FMA(t, ex, -(y * ey)), gy = alpha_y * VNDF_FMA(t, ey, y * ex);
+    // Two forms: alike they would be packed (impl/stretch.h).
+    VNDF_REAL gx = alpha_x * VNDF_FMA(t, ex, -(y * ey)), gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, VNDF_R(1.0))), length = VNDF_SQRT(length2);
     VNDF_REAL rcp = VNDF_R(1.0) / length;
     m.x = gx * rcp;

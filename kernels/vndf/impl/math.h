@@ -154,12 +154,12 @@ VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
 // x 2^exponent for x >= 0: 0 where that is no normal number, and at most the largest finite one.
 VNDF_FN VNDF_REAL vndf_impl_times_power(VNDF_REAL x, VNDF_INT exponent) {
     VNDF_INT bits = VNDF_AS_INT(x), biased = (bits >> VNDF_IMPL_MANTISSA_BITS) + exponent;
-    int small = x < VNDF_IMPL_LEAST || biased < 1;
-    int large = biased > 2 * VNDF_IMPL_EXPONENT_BIAS;
-    VNDF_INT kept = small || large ? 0 : exponent;
+    int below = x < VNDF_IMPL_LEAST || biased < 1;
+    int beyond = biased > 2 * VNDF_IMPL_EXPONENT_BIAS;
+    VNDF_INT kept = below || beyond ? 0 : exponent;
     VNDF_REAL result = VNDF_AS_REAL(bits + kept * ((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS));
-    result = large ? VNDF_REAL_MAX : result;
-    return x == x ? (small ? VNDF_R(0.0) : result) : x;
+    result = beyond ? VNDF_REAL_MAX : result;
+    return x == x ? (below ? VNDF_R(0.0) : result) : x;
 }
 
 // scale * exp(x + low), |low| <= 1e-2, for every scale >= 0 and x: exp(x) itself may leave the range of numbers. 0 below
@@ -260,8 +260,8 @@ VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_
 #endif
     VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
     f.erfcx = v * VNDF_FMA(v2, VNDF_FMA(v, p, third), VNDF_FMA(v, first, first));
-    VNDF_REAL far = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), p, third), VNDF_R(0.03526184897173476793));
-    f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : far;
+    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), p, third), VNDF_R(0.03526184897173476793));
+    f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : tail;
     return f;
 }
 // The same where the last digits count: v with the rounding errors of 2 + x and of the quotient.
