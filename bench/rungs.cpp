@@ -58,27 +58,6 @@ const std::vector<FlagSet>& flag_sets() {
     return sets;
 }
 
-// The iterative sampler with other numbers of steps. Every form but the last keeps the last step, which alone is taken with
-// the accurate residual.
-void add_steps(const Function& function, std::vector<Rung>& all) {
-    if (function.name != "vndf_beckmann_sample_wm_jakob2014") return;
-    const std::string file = "kernels/vndf/impl/beckmann_slopes.h",
-                      first = "VNDF_REAL offset = VNDF_IMPL_STEP(start, 0)",
-                      second = "offset = VNDF_IMPL_STEP(offset, 0)",
-                      last = "return VNDF_IMPL_STEP(offset, 1)", none = "VNDF_REAL offset = start";
-    const std::vector<std::vector<runtime::Substitution>> forms = {
-        {{file, first, none, 1}, {file, second, "", 1}, {file, last, "return offset", 1}},
-        {{file, first, none, 1}, {file, second, "", 1}},
-        {{file, first, none, 1}},
-        {{file, second, second, 1}},
-        {{file, second, second + "; " + second, 1}}};
-    for (std::size_t steps = 0; steps < forms.size(); ++steps)
-        all.push_back({.name = fmt::format("steps{}", steps),
-                       .modes = memory_and_one_lobe,
-                       .callee = function.name,
-                       .substitutions = forms[steps]});
-}
-
 // What the isotropic sampler competes with: a basis about n, the cap in it and back; ours and the listing. Azimuths are those
 // of the basis: the distribution is the same, the map is another.
 void add_basis(const Function& function, std::vector<Rung>& all) {
@@ -163,13 +142,16 @@ Rung again(const Function& function, std::size_t number) {
 }
 
 int batch_of(const Rung& rung) {
-    if (!rung.layout.empty() || !rung.substitutions.empty() || !rung.flags.empty()) return 3;
+    if (!rung.layout.empty() || !rung.flags.empty()) return 3;
     if (rung.real == Real::f64) return 2;
     return rung.name == "builtin" || rung.name == "native" ? 1 : 0;
 }
 
 std::vector<Rung> rungs(const Function& function, const runtime::Device& device) {
     std::vector<Rung> all;
+    // A function of a lobe that is set up on the spot is the plain one, bit for bit: its time is all there is to know.
+    if (function.arguments.find("LOBE") != std::string::npos)
+        return {{.name = "strict", .modes = all_modes(function), .callee = function.name}};
     for (const Real real : {Real::f32, Real::f64}) {
         if (real == Real::f64 && !device.fp64) continue;
         for (const Math math : {Math::strict, Math::builtin, Math::native}) {
@@ -183,7 +165,6 @@ std::vector<Rung> rungs(const Function& function, const runtime::Device& device)
     }
     if (is_built_again(function)) all.push_back(again(function, 1));
     add_listings(function, all);
-    add_steps(function, all);
     add_basis(function, all);
     add_layouts(function, all);
     if (is_plain_sampler(function))

@@ -23,7 +23,6 @@ struct Rung {
     std::string callee;                           // the OpenCL C function behind it
     std::string root = "kernels/batch/batch.cl";  // the source with its entry point
     std::string flags = {};                       // instead of -cl-fp32-correctly-rounded-divide-sqrt
-    std::vector<runtime::Substitution> substitutions = {};
     std::string layout = {};  // of bench/layouts.cl, or "readme"; empty: an array for each scalar
     bool same_map = true;     // whether the function's reference is its own
     bool on_device = true;    // or the C++ build
@@ -38,7 +37,7 @@ std::vector<Rung> rungs(const Function& function, const runtime::Device& device)
 Rung again(const Function& function, std::size_t number);
 
 // What is to be measured together, the smallest first: strict float with what it is compared with; other policies; double; other
-// options, layouts and numbers of steps.
+// options and layouts.
 int batch_of(const Rung& rung);
 
 // Those of a quick run: strict float, lean and factored.

@@ -55,8 +55,6 @@ runtime::ProgramOptions program_options(const Function& function, const Rung& ru
     options.functions = {function.name};
     options.root = rung.root;
     options.more_files = sources();
-    options.substitutions = rung.substitutions;
-    options.mutant = rung.substitutions.empty() ? 0 : 1;
     options.build_options = rung.flags;
     options.correct_divide_sqrt = rung.flags.empty();
     if (rung.layout.empty()) options.more_source = cached_source(function, rung.callee);

@@ -71,7 +71,7 @@ class Bench:
         return [s for s in self.samplers() if f"{s}/lean/float/cached" in self.best]
 
     def samplers(self):
-        return [f for f in self.functions if "_sample_" in f and not f.endswith("_with_pdf")]
+        return [f for f in self.functions if "_sample_" in f and not f.endswith(("_with_pdf", "_lobe"))]
 
 
 def short(function):
@@ -370,31 +370,6 @@ def cost_of_accuracy(benches):
     return figure
 
 
-def iterations(benches):
-    figure, axes = plt.subplots(1, 2 * len(benches), figsize=(11, 3.4), squeeze=False)
-    sampler = "vndf_beckmann_sample_wm_jakob2014"
-    for i, bench in enumerate(benches):
-        steps = [k for k in range(10) if f"{sampler}/steps{k}/float/stream" in bench.best]
-        left, right = axes[0][2 * i:2 * i + 2]
-        for mode, label, colour in (("stream", "streaming", "#1f77b4"), ("compute", "compute-bound", "#aec7e8")):
-            left.plot(steps, [bench.ns(sampler, f"steps{k}/float", mode) for k in steps], "o-", label=label, color=colour)
-        for counter, label, colour in (("err_p50", "median", "#ffbb78"), ("err_p99", "99th percentile", "#ff7f0e"),
-                                       ("err_max", "maximum", "#d62728")):
-            # A median of 0 is an exact start: it has no place on a logarithmic axis.
-            right.plot(steps, [bench.counter(f"{sampler}/steps{k}/float/stream", counter) or None for k in steps], "o-",
-                       label=label, color=colour)
-        left.set_ylim(bottom=0)
-        left.set_ylabel("ns a sample")
-        right.set_yscale("log")
-        right.set_ylabel("$2^{-24}$ (1 + condition number)")
-        for axis in (left, right):
-            axis.set_xticks(steps)
-            axis.set_xlabel("steps (3 are taken)")
-            axis.set_title(bench.device, fontsize=7)
-            axis.legend(fontsize=7, frameon=False)
-    return figure
-
-
 NOISE = (("vndf_ggx_sample_wm_walter2007", "plain NDF", "#7f7f7f"), ("vndf_ggx_sample_wm_dupuy2023", "cap", "#1f77b4"),
          ("vndf_ggx_sample_wi_eto2023", "bounded cap", "#ff7f0e"),
          ("vndf_ggx_sample_wi_eto2023_polygon", "polygon bound", "#2ca02c"),
@@ -644,9 +619,6 @@ PLOTS = (
      "The same sampler over an array for each scalar and over arrays as renderers keep them (bench/layouts.cl). Where LLVM packs "
      "neighbouring loads and stores, PoCL does not vectorise the kernel; times one: every second component is multiplied by an "
      "argument that is 1, and the neighbours are no longer alike."),
-    ("Iterations", iterations,
-     "The inversion of Jakob 2014 with other numbers of steps. The other inversion, the exact slopes of Heitz & d'Eon 2014, "
-     "has none: Kepler's equation is solved by two polynomials."),
     ("Rejection and variance", noise_of_one_sample,
      "GGX without Fresnel, azimuth 0.7. Samples whose reflection is below the surface are rejected and count as 0. White light "
      "is 1 everywhere, smooth light (1 + wi.x) / 2. Variance of one random sample; root of the mean squared error of 1024 "

@@ -23,7 +23,8 @@
 // return: per steradian of wm per unit projected area: its integral with wm.z is 1; 0 for wm.z <= 0.
 // Accuracy: 8 eps (1 + 2 q); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
+    return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y),
+                                VNDF_R(1.0));
 }
 
 // The distribution of slopes P22.
@@ -34,7 +35,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 // Accuracy: 6 eps (1 + 2 q); double 6.
 VNDF_FN VNDF_REAL vndf_beckmann_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     return vndf_impl_beckmann_d(slope.x, slope.y, VNDF_R(1.0), vndf_impl_alpha(alpha.x),
-                                vndf_impl_alpha_y(alpha.y));
+                                vndf_impl_alpha_y(alpha.y), VNDF_R(1.0));
 }
 
 // Smith's Lambda.
@@ -56,10 +57,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8 eps (1 + 2 q); double 9.
 //     q = a^2 below the horizon, 0 above it.
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL l = vndf_impl_beckmann_l(w, alpha);
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(l, w.z);
-    VNDF_REAL sigma = VNDF_FMA(l * s.gaussian, s.hidden, vndf_impl_max(w.z, VNDF_R(0.0)));
-    return vndf_impl_finite(sigma) + vndf_impl_zero(w.x, w.y, w.z);
+    VNDF_REAL unseen = vndf_impl_beckmann_unseen(vndf_impl_beckmann_l(w, alpha), w.z);
+    return vndf_impl_finite(unseen + vndf_impl_max(w.z, VNDF_R(0.0))) + vndf_impl_zero(w.x, w.y, w.z);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -78,10 +77,13 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     // wi's terms are made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
-    VNDF_REAL lambda_o = vndf_impl_beckmann_upper_lambda(wo, alpha);
+    // Next to nothing counts as little: it is slow where it is no normal number.
+    VNDF_REAL little = VNDF_EPSILON * VNDF_EPSILON;
+    VNDF_REAL lambda_o = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wo, alpha), little);
     VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL lambda_i = vndf_impl_beckmann_upper_lambda(wi, alpha_i), quarter = VNDF_R(0.25);
+    VNDF_REAL lambda_i = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wi, alpha_i), little),
+              quarter = VNDF_R(0.25);
     // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
     // exchanged.
     VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
@@ -141,7 +143,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
 // return: per steradian of wm; 0 for wm.z <= 0.
 // Accuracy: 8 eps (1 + 2 q); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    return vndf_impl_finite(vndf_beckmann_ndf(wm, alpha) * wm.z);
+    return vndf_impl_beckmann_d(wm.x, wm.y, wm.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y),
+                                vndf_impl_max(wm.z, VNDF_R(0.0)));
 }
 
 // --- Visible slopes at alpha = 1, in the plane of incidence ---
@@ -154,10 +157,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alph
 // Accuracy: 9 eps (1 + condition number); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
-    struct vndf_impl_incidence_slopes i = s.slopes;
-    VNDF_REAL exponent = i.front ? s.x * s.x : s.y * VNDF_FMA(VNDF_R(2.0), i.a, s.y);
-    VNDF_REAL scale = VNDF_1_SQRT_PI * (i.front ? s.visible : s.y) / i.sigma;
-    VNDF_REAL pdf = vndf_impl_scaled_exp(-exponent, VNDF_R(0.0), scale);
+    VNDF_REAL pdf = vndf_impl_slope_gaussian(s, VNDF_1_SQRT_PI * s.y / s.slopes.area);
     return s.visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
@@ -168,8 +168,14 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // Accuracy: 10 eps (1 + condition number); double 10.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
-    int edge = vndf_impl_slope_is_edge(s.slopes, 0);
-    VNDF_REAL cdf = vndf_impl_slope_mass_of(s.slopes, edge, edge ? s.y : -s.x, 0, 1).mass;
+    struct vndf_impl_incidence_slopes i = s.slopes;
+    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(vndf_impl_abs(s.x));
+    VNDF_REAL rcp = VNDF_R(1.0) / i.area, half_y = VNDF_R(0.5) * s.y;
+    // For x > 0 what is above; the factor may have either sign there.
+    int right = i.front && s.x > VNDF_R(0.0);
+    VNDF_REAL body = VNDF_FMA(half_y, f.erfcx, right ? -f.ierfcx : f.ierfcx) * rcp;
+    VNDF_REAL e = vndf_impl_slope_gaussian(s, right ? VNDF_R(1.0) : body);
+    VNDF_REAL cdf = right ? VNDF_R(1.0) - VNDF_FMA(i.hidden, rcp, body * e) : e;
     return s.visible > VNDF_R(0.0) && cdf < VNDF_R(1.0) ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
 
@@ -181,12 +187,9 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
 // return: the slope x < cot(theta); minus the largest finite number at cos_theta = -1.
 // Accuracy: 7 eps (1 + condition number); double 7.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) {
-    struct vndf_impl_incidence_slopes i =
-        vndf_impl_beckmann_incidence(cos_theta, vndf_impl_sin_from_cos(cos_theta));
-    VNDF_REAL u = vndf_impl_u(u1);
-    int edge = vndf_impl_slope_is_edge(i, vndf_impl_slope_is_upper(u));
-    VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
-    return cos_theta > VNDF_R(-1.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
+    struct vndf_impl_visible_slope r =
+        vndf_impl_slope_of_mass(vndf_impl_beckmann_angle(cos_theta), vndf_impl_u(u1));
+    return cos_theta > VNDF_R(-1.0) ? vndf_impl_finite(r.x) : -VNDF_REAL_MAX;
 }
 
 #endif

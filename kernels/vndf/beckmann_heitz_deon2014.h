@@ -8,56 +8,59 @@
 #include "beckmann.h"
 #include "impl/beckmann_slopes.h"
 
-// The slope x, and of the second number u2, used again where it chose the sign of x: 1 - 2 u2 and u2 (1 - u2).
+// The slope x with its distance y from the edge, and of the second number u2, used again where it chose the sign of x:
+// 1 - 2 u2 and u2 (1 - u2).
 struct vndf_impl_folded_slope {
-    VNDF_REAL x, difference, product;
+    struct vndf_impl_visible_slope slope;
+    VNDF_REAL difference, product;
 };
 
-// The masses before division by sigma: edge = s e^(-a^2) / (2 sqrt(pi)) and plateau = c erfc(a) / 2 for x < -a; the rest
-// lies in |x| < a, both signs at once. One logarithm and one erfinv serve all branches: what they take is selected first.
+// The masses, times the area A: edge = e^(-a^2) / (2 sqrt(pi)) and plateau = a erfc(a) / 2 for x < -a; the rest lies in
+// |x| < a, both signs at once. One quotient, logarithm, root and erfinv serve all branches: what they take is selected first.
 VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_incidence_slopes i,
                                                               VNDF_REAL u1, VNDF_REAL u2) {
     struct vndf_impl_folded_slope fold;
-    VNDF_REAL beyond = vndf_impl_erfcx(i.a) * i.gaussian;  // erfc(a)
-    VNDF_REAL within = vndf_impl_erf_of(i.a, beyond);
-    VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.s * i.gaussian, plateau = VNDF_R(0.5) * i.c * beyond;
-    VNDF_REAL mass = u1 * i.sigma, mass_above = (VNDF_R(1.0) - u1) * i.sigma;
-    // mass - edge; sigma is edge + c - plateau, which above u1 = 1/2 keeps the digits of 1 - u1.
+    VNDF_REAL a = vndf_impl_max(i.a, VNDF_IMPL_ROOT_LEAST);
+    VNDF_REAL beyond = vndf_impl_scaled_erfc_of(i.a).erfcx * i.gaussian;  // erfc(a)
+    VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.gaussian, plateau = VNDF_R(0.5) * a * beyond;
+    VNDF_REAL mass = u1 * i.area, mass_above = (VNDF_R(1.0) - u1) * i.area;
+    // mass - edge; the area is edge + a - plateau, which above u1 = 1/2 keeps the digits of 1 - u1.
     int shallow = u1 > VNDF_R(0.5);
-    VNDF_REAL excess = shallow ? i.c - (mass_above + plateau) : mass - edge;
+    VNDF_REAL excess = shallow ? a - (mass_above + plateau) : mass - edge;
     int at_edge = excess <= VNDF_R(0.0), outer = excess <= plateau;
+    VNDF_REAL within = VNDF_R(1.0) - beyond, rest = excess - plateau;
+    int left = mass_above > VNDF_R(0.5) * a * within;
 
-    // |x| < a: U and 1 - U share |2 U - 1| = 1 - 2 less.
-    VNDF_REAL central = i.c * within, centre_mass = central > VNDF_R(0.0) ? central : VNDF_R(1.0);
-    VNDF_REAL upper = mass_above / centre_mass, lower = (excess - plateau) / centre_mass;
-    int left = upper > VNDF_R(0.5);
-    VNDF_REAL less = vndf_impl_max(left ? lower : upper, VNDF_R(0.0));
-    VNDF_REAL centre = VNDF_R(1.0) - VNDF_R(2.0) * less;
-
-    // |x| = erfinv(p) with p = 1 - q; at the edge, sqrt(a^2 - log(mass / edge)), the logarithm with the rounding error of
-    // its argument 1 + r. Rounding must not carry the excess beyond the plateau: x would pass the edge of the visible.
-    // Masses that are next to nothing hold no sample: their quotients are kept finite.
-    VNDF_REAL edge_mass = vndf_impl_max(edge, VNDF_IMPL_ROOT_LEAST * VNDF_EPSILON),
-              plateau_mass = vndf_impl_max(plateau, VNDF_IMPL_ROOT_LEAST * VNDF_EPSILON);
-    VNDF_REAL r = excess / edge_mass, rest = shallow ? VNDF_R(1.0) + r : mass / edge_mass;
-    VNDF_REAL q = outer ? vndf_impl_min(excess / plateau_mass, VNDF_R(1.0)) * beyond
-                        : VNDF_FMA(centre, beyond, VNDF_R(2.0) * less);
-    VNDF_REAL p = outer ? VNDF_R(1.0) - q : centre * within;
-    VNDF_REAL w = -vndf_impl_log(at_edge ? rest : q * (VNDF_R(1.0) + p));
-    VNDF_REAL size = p * vndf_impl_erfinv_ratio_of_log(w);
-    w -= shallow ? ((VNDF_R(1.0) - rest) + r) / rest : VNDF_R(0.0);
-    size = at_edge ? VNDF_SQRT(VNDF_FMA(i.a, i.a, vndf_impl_max(w, VNDF_R(0.0)))) : size;
+    // At the edge x^2 = a^2 - log(mass / edge); elsewhere |x| = erfinv(p), p = 1 - q.
+    VNDF_REAL centre = left ? rest : mass_above;
+    VNDF_REAL part =
+        at_edge ? (shallow ? excess : mass) : (outer ? excess : vndf_impl_max(centre, VNDF_R(0.0)));
+    VNDF_REAL share = part / (at_edge ? edge : a);
+    VNDF_REAL q = VNDF_FMA(VNDF_R(2.0), share, outer ? VNDF_R(0.0) : beyond);
+    VNDF_REAL p = VNDF_FMA(VNDF_R(-2.0), share, outer ? VNDF_R(1.0) : within);
+    VNDF_REAL ratio = shallow ? VNDF_R(1.0) + share : share;
+    // Of a q that is next to nothing rounding has left no digit.
+    VNDF_REAL square = vndf_impl_max(q, VNDF_DOUBLE ? VNDF_R(1e-36) : VNDF_R(1e-18)) * (VNDF_R(1.0) + p);
+    VNDF_REAL w = -vndf_impl_log_of_share(at_edge ? ratio : square);
+    // The rounding error of 1 + share.
+    w -= shallow && at_edge ? ((VNDF_R(1.0) - ratio) + share) * (VNDF_R(1.0) - share) : VNDF_R(0.0);
+    w = vndf_impl_max(w, VNDF_R(0.0));
+    VNDF_REAL root = VNDF_SQRT(at_edge ? VNDF_FMA(a, a, w) : w);
+    VNDF_REAL inner = p * vndf_impl_erfinv_ratio_of_log(w, root);
+    VNDF_REAL size = at_edge ? root : (outer ? inner : vndf_impl_min(inner, a));
     VNDF_REAL x = outer || left ? -size : size;
 
-    // The sign of x by its share of the projected area.
-    VNDF_REAL ratio = VNDF_R(0.5) * (x / vndf_impl_max(i.a, VNDF_IMPL_ROOT_LEAST));
-    VNDF_REAL keep = VNDF_R(0.5) - ratio, swap = VNDF_R(0.5) + ratio;
-    int mirror = u2 > keep;
-    VNDF_REAL rcp = VNDF_R(1.0) / (mirror ? swap : keep);
-    VNDF_REAL low = mirror ? u2 - keep : u2, high = mirror ? VNDF_R(1.0) - u2 : keep - u2;
-    fold.x = !outer && mirror ? -x : x;
-    fold.difference = outer ? VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0)) : (high - low) * rcp;
-    fold.product = outer ? u2 * (VNDF_R(1.0) - u2) : low * rcp * rcp * high;
+    // The sign of x by its share of the projected area, all times 2 a.
+    VNDF_REAL first = VNDF_R(2.0) * a * u2, second = VNDF_R(2.0) * a * (VNDF_R(1.0) - u2);
+    VNDF_REAL keep = a - x, swap = a + x;
+    int mirror = !outer && first > keep;
+    VNDF_REAL reach = mirror ? swap : keep;
+    VNDF_REAL rcp = VNDF_R(1.0) / reach;
+    VNDF_REAL low = (mirror ? first - keep : first) * rcp, high = (mirror ? second : keep - first) * rcp;
+    fold.slope.x = mirror ? -x : x;
+    fold.slope.y = reach;
+    fold.difference = outer ? VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0)) : high - low;
+    fold.product = outer ? u2 * (VNDF_R(1.0) - u2) : low * high;
     return fold;
 }
 
@@ -70,8 +73,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp:
     // rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
-    VNDF_REAL y = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, 0, -r.x, y, 0));
+    VNDF_REAL across = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
+    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, r.slope, across));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map

@@ -15,9 +15,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, 
     VNDF_REAL rest = VNDF_R(1.0) - u1;
     VNDF_REAL logarithm = vndf_impl_log(rest) + ((VNDF_R(1.0) - rest) - u1) / rest;
     VNDF_REAL radius = VNDF_SQRT(-logarithm);
-    return vndf_impl_beckmann_unstretch(VNDF_R(1.0), VNDF_R(0.0), radius * vndf_impl_circle_cos(u2),
-                                        radius * vndf_impl_circle_sin(u2), vndf_impl_alpha(alpha.x),
-                                        vndf_impl_alpha_y(alpha.y), VNDF_1_PI * rest, 0);
+    // y waits for x, which is finite: side by side they would be packed (impl/stretch.h).
+    VNDF_REAL x = radius * vndf_impl_circle_cos(u2);
+    VNDF_REAL y = (x <= VNDF_REAL_MAX ? radius : VNDF_R(0.0)) * vndf_impl_circle_sin(u2);
+    return vndf_impl_beckmann_unstretch(VNDF_R(1.0), VNDF_R(0.0), x, y, vndf_impl_alpha(alpha.x),
+                                        vndf_impl_alpha_y(alpha.y), VNDF_1_PI * rest);
 }
 
 // A normal with density proportional to D(wm) wm.z, whatever the view direction.

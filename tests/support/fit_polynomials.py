@@ -130,14 +130,28 @@ def erfcx(x):
     return mp.exp(x * x) * mp.erfc(x) if x < 25 else (1 - erfcx_series(x)) / (mp.sqrt(mp.pi) * x)
 
 
-def flattened(x):
-    """1 + sqrt(pi) x + 2 x^2: 1 / ierfcx(x) at both ends."""
-    return 1 + mp.sqrt(mp.pi) * x + 2 * x * x
+def scaled_erfc_rest(v):
+    """r of erfcx(x) = v ((1 + v) / (2 sqrt(pi)) + v^2 (7 / (16 sqrt(pi)) + v r)), v = 2 / (2 + x)."""
+    with mp.workdps(80):
+        first = 1 / (2 * mp.sqrt(mp.pi))
+        return ((erfcx(half_line(v)) / v - (1 + v) * first) / v**2 - 7 * first / 8) / v
 
 
-def half_line(z):
-    """x of z = (x - 2) / (x + 2), which maps 0 ... infinity to -1 ... 1."""
-    return 2 * (1 + z) / (1 - z)
+def scaled_erfc_weight(v, _):
+    """Errors of r relative to erfcx(x) and to ierfcx(x)."""
+    x = half_line(v)
+    return v**4 / min(erfcx(x), ierfcx(x) / (mp.sqrt(mp.pi) * x))
+
+
+def half_line(v):
+    """x of v = 2 / (2 + x), which maps 0 ... infinity to 1 ... 0."""
+    return 2 * (1 - v) / v
+
+
+def log1p_rest(z):
+    """(log(1 + z) - z) / z^2."""
+    with mp.workdps(80):
+        return (mp.log1p(z) - z) / z**2
 
 
 def erfcinv_ratio(w):
@@ -176,15 +190,27 @@ def arc(z):
 
 
 KEPLER_END = mp.cbrt(6 * mp.pi) ** 2
-UP_TO_ONE = 1 - mpf("1e-12")
 
 
 def erfcinv_tail(shift):
     return lambda z: (z + shift) * erfcinv_ratio(1 / (z + shift) ** 2)
 
 
+def erfcinv_root(z):
+    return erfcinv_ratio((z + mpf("4.5")) ** 2)
+
+
+def root_weight(z, f):
+    """Beyond w = 25, where samples are next to none, 3 times the error will do."""
+    return (1 if z + mpf("4.5") < 5 else mpf(1) / 3) / abs(f)
+
+
 def tail_interval(low, high, shift):
     return 1 / mp.sqrt(mpf(high)) - shift, 1 / mp.sqrt(mpf(low)) - shift
+
+
+SQRT2 = mp.sqrt(2)
+MANTISSA = 1 / SQRT2 - 1, SQRT2 - 1
 
 
 def piece(function, float_interval, double_interval, weight=relative):
@@ -203,22 +229,22 @@ CASES = [
     dict(name="EXP", what="(exp(z) - 1 - z) / z^2, |z| <= log(2) / 2", kind="relative to exp(z)",
          degree=dict(float=4, double=9),
          pieces=[piece(exp_tail, *[(-mp.log(2) / 2, mp.log(2) / 2)] * 2, lambda z, f: z * z / mp.exp(z))]),
-    dict(name="ERF", what="erf(x) / x - 9/8 in z = x^2, |x| <= 1/2", kind="relative to erf(x) / x",
-         degree=dict(float=4, double=9),
-         pieces=[piece(lambda z: mp.erf(mp.sqrt(z)) / mp.sqrt(z) - mpf("1.125"), *[(mpf("1e-30"), mpf(1) / 4)] * 2,
-                       lambda z, f: 1 / (f + mpf("1.125")))]),
-    dict(name="ERFCX", what="erfcx(x) (1 + sqrt(pi) x + 2 x^2) / (1 + 2 x / sqrt(pi)) in z = (x - 2) / (x + 2), x >= 0",
-         kind="relative", degree=dict(float=12, double=27),
-         pieces=[piece(lambda z: erfcx(half_line(z)) * flattened(half_line(z)) /
-                       (1 + 2 * half_line(z) / mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
-    dict(name="IERFCX", what="exp(x^2) ierfc(x) (1 + sqrt(pi) x + 2 x^2) / 2 in z = (x - 2) / (x + 2), x >= 0",
-         kind="relative", degree=dict(float=13, double=29),
-         pieces=[piece(lambda z: ierfcx(half_line(z)) * flattened(half_line(z)) / (2 * mp.sqrt(mp.pi)), *[(mpf(-1), UP_TO_ONE)] * 2)]),
-    dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then R / sqrt(w) in"
-         " z = 1 / sqrt(w) - 1/4, w <= 88 (float), 40 (double); last (double) in z = 1 / sqrt(w) - 1/10, w <= 744",
-         kind="relative", degree=dict(float=10, double=24),
+    dict(name="SCALED_ERFC", what="r of erfcx and ierfcx (math.h) in v = 2 / (2 + x), x >= 0; double: in v - 1/2",
+         kind="relative to either", degree=dict(float=11, double=25), estrin="float",
+         pieces=[piece(scaled_erfc_rest, (mpf(0), mpf(1)), None, scaled_erfc_weight),
+                 piece(lambda z: scaled_erfc_rest(z + mpf("0.5")), None, (mpf("-0.5"), mpf("0.5")),
+                       lambda z, f: scaled_erfc_weight(z + mpf("0.5"), f))]),
+    dict(name="LOG1P", what="(log(1 + z) - z) / z^2, z between sqrt(1/2) - 1 and sqrt(2) - 1",
+         kind="relative to the logarithm", degree=dict(float=8), estrin="float",
+         pieces=[piece(log1p_rest, MANTISSA, None, lambda z, f: abs(z / (1 + z * f)))]),
+    dict(name="LOG1P_ROUGH", what="log(1 + z) / z, as above", kind="relative", degree=dict(float=3, double=3),
+         pieces=[piece(lambda z: mp.log1p(z) / z, MANTISSA, MANTISSA)]),
+    dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then, in float, in"
+         " z = sqrt(w) - 9/2, w <= 42; in double, R / sqrt(w) in z = 1 / sqrt(w) - 1/4, w <= 40, and in z = 1 / sqrt(w) - 1/10, w <= 744",
+         kind="relative", degree=dict(float=12, double=24), estrin="float",
          pieces=[piece(lambda z: erfcinv_ratio(z + mpf("3.5")), *[(mpf("-3.5"), mpf("3.5"))] * 2),
-                 piece(erfcinv_tail(mpf("0.25")), tail_interval(7, 88, mpf("0.25")), tail_interval(7, 40, mpf("0.25"))),
+                 piece(erfcinv_root, (mp.sqrt(7) - mpf("4.5"), mp.sqrt(42) - mpf("4.5")), None, root_weight),
+                 piece(erfcinv_tail(mpf("0.25")), None, tail_interval(7, 40, mpf("0.25"))),
                  piece(erfcinv_tail(mpf("0.1")), None, tail_interval(40, 744, mpf("0.1")))]),
     dict(name="KEPLER_SIN", what="sin(eta / 2) / k in z = k^2, eta - sin(eta) = k^3 / 6, eta <= pi", kind="relative",
          degree=dict(float=9, double=24),
@@ -241,30 +267,43 @@ def print_polynomial(case, real):
     fits = [fit(p, case["degree"][real], real) for p in pieces]
     unit = mpf(2) ** (-24 if real == "float" else -53)
     error = ", ".join(mp.nstr(worst / unit, 2) for _, worst in fits)
-    rows = [", ".join(literal(c, real) for c in row) for row in zip(*[c for c, _ in fits])][::-1]
+    rows = [", ".join(literal(c, real) for c in row) for row in zip(*[c for c, _ in fits])]
     print(f"// {real}: error {error} * 2^-{24 if real == 'float' else 53}")
+    if case.get("estrin") == real:
+        print(f"#define VNDF_IMPL_{case['name']}(poly, c) \\")
+        print(f"    poly({', '.join(f'c({row})' for row in rows)})", flush=True)
+        return
     print(f"#define VNDF_IMPL_{case['name']}(FIRST, NEXT) \\")
-    lines = [f"    {'NEXT' if k else 'FIRST'}({row})" for k, row in enumerate(rows)]
+    lines = [f"    {'NEXT' if k else 'FIRST'}({row})" for k, row in enumerate(rows[::-1])]
     print(" \\\n".join(lines), flush=True)
 
 
 HEADER = """\
 // The polynomials of math.h. Generated by tests/support/fit_polynomials.py; do not edit.
 //
-// Highest power first: FIRST(c) NEXT(c) ...; several numbers in a row belong to adjoining intervals.
+// Highest power first: FIRST(c) NEXT(c) ...; or lowest first: poly(c(...), c(...), ...). Several numbers in a row belong to
+// adjoining intervals.
 #ifndef VNDF_IMPL_POLYNOMIALS_H
 #define VNDF_IMPL_POLYNOMIALS_H
 // clang-format off"""
 
 
+def print_case(case):
+    print(f"\n// {case['what']}.\n// Errors are {case['kind']}.")
+    if "double" not in case["degree"]:
+        print("#if !VNDF_DOUBLE")
+    else:
+        print("#if VNDF_DOUBLE")
+        print_polynomial(case, "double")
+        print("#else")
+    print_polynomial(case, "float")
+    print("#endif")
+
+
 def main():
     print(HEADER)
     for case in CASES:
-        print(f"\n// {case['what']}.\n// Errors are {case['kind']}.\n#if VNDF_DOUBLE")
-        print_polynomial(case, "double")
-        print("#else")
-        print_polynomial(case, "float")
-        print("#endif")
+        print_case(case)
     print("\n// clang-format on\n#endif")
 
 

@@ -1,125 +1,162 @@
 // The visible slopes of the Beckmann distribution in the plane of incidence, at alpha = 1, and what the samplers share.
 //
-// c, s are cosine and sine of the polar angle of the view direction, a = c / s. A normal (-x, ., 1) has the slope t = -x
-// towards the view direction, and the distance y = t + a > 0 from the edge of the visible. The density of t is
-// s y e^(-t^2) / (sqrt(pi) sigma); with I of beckmann.h, the distribution function of x = -t is
-//     C = [s y erfcx(t) / 2 + s I(t)] e^(-t^2) / sigma,
-// all terms positive for t > 0. Masses above 3/4 are replaced by their complements, also formed without cancellation.
+// a is the cotangent of the view direction's polar angle, negative behind the surface. A normal (-x, ., 1) leans by t = -x
+// towards the view direction, and is y = a - x > 0 from the edge of the visible. With E = erfcx, I = ierfcx (math.h) and
+// the area A = sigma / sin(theta), the density of x is y e^(-x^2) / (sqrt(pi) A), and its distribution function C
+//     A C = (y E(-x) / 2 + I(-x)) e^(-x^2)                    for x < 0,
+//     A C = A - h + (I(x) - y E(x) / 2) e^(-x^2)              for x > 0, h = I(a) e^(-a^2), A = a + h.
+// Behind the surface A is I(|a|) e^(-a^2), and e^(-a^2) is left out of all terms: exponents are relative to it.
 #ifndef VNDF_IMPL_BECKMANN_SLOPES_H
 #define VNDF_IMPL_BECKMANN_SLOPES_H
 
+#include "beckmann_start.h"
 #include "beckmann_terms.h"
 
-// The view direction, s > 0 or c > 0. Behind the surface s e^(-a^2) is left out of all terms: s is 1, sigma and the
-// exponents are relative to it.
+// The view direction. `steep` is at most 2^53 (double: 2^501): beyond, every density is more than a number.
+#if VNDF_DOUBLE
+#define VNDF_IMPL_COT_LIMIT 1152921504606846976.0     // 2^60
+#define VNDF_IMPL_STEEP_LIMIT 6.5465360707009880e150  // 2^501
+#else
+#define VNDF_IMPL_COT_LIMIT 1073741824.0f          // 2^30
+#define VNDF_IMPL_STEEP_LIMIT 9007199254740992.0f  // 2^53
+#endif
 struct vndf_impl_incidence_slopes {
-    VNDF_REAL c, s;
-    VNDF_REAL a;         // |a|
-    VNDF_REAL gaussian;  // e^(-a^2)
-    VNDF_REAL sigma;
-    VNDF_REAL hidden;  // in front, the mass of slopes that face away, over sigma
-    VNDF_REAL reach2;  // 1 - C tends to y^2 / reach2 at the edge
     int front;
+    VNDF_REAL steep;     // |a|
+    VNDF_REAL a;         // |a|, at most 2^30 (double: 2^60): beyond, y is as 1 / |a|
+    VNDF_REAL gaussian;  // in front e^(-a^2) where it counts beside a, behind 1
+    VNDF_REAL hidden;    // I(|a|) gaussian: in front h, behind A
+    VNDF_REAL plateau;   // in front a, behind 0
+    VNDF_REAL area;      // A
 };
-VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL c, VNDF_REAL s) {
+VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL steep, int front) {
     struct vndf_impl_incidence_slopes i;
-    struct vndf_impl_slopes slopes = vndf_impl_slopes_of(s, c);
-    VNDF_REAL edge = s * slopes.gaussian, hidden = edge * slopes.hidden;
-    i.front = c >= VNDF_R(0.0);
-    i.c = c;
-    i.s = i.front ? s : VNDF_R(1.0);
-    i.a = slopes.a;
-    i.gaussian = slopes.gaussian;
-    i.sigma = i.front ? hidden + c : slopes.hidden;
-    i.hidden = hidden / i.sigma;
-    // Far from the edge its Gaussian underflows: any large number serves, whose product with a logarithm is one.
-    VNDF_REAL least = VNDF_R(256.0) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
-    i.reach2 = VNDF_R(2.0) * VNDF_SQRT_PI * i.sigma / (i.front ? vndf_impl_max(edge, least) : VNDF_R(1.0));
+    VNDF_REAL bounded = front ? vndf_impl_min(steep, VNDF_DOUBLE ? VNDF_R(9.0) : VNDF_R(6.0)) : VNDF_R(0.0);
+    i.front = front;
+    i.steep = steep;
+    i.a = vndf_impl_min(steep, VNDF_IMPL_COT_LIMIT);
+    i.gaussian = vndf_impl_moderate_exp(-bounded * bounded);
+    i.hidden = i.gaussian * vndf_impl_scaled_erfc_of(i.a).ierfcx;
+    i.plateau = front ? i.a : VNDF_R(0.0);
+    i.area = i.plateau + i.hidden;
     return i;
 }
 
-// A slope is t = base + offset. `edge`: the base is -a and the offset y; elsewhere they are 0 and t: the offset keeps the
-// digits that matter. Masses `upper` are those near the edge; from t = -8 on, where no mass of 2^-53 lies beyond, it is out
-// of reach.
-VNDF_FN int vndf_impl_slope_is_edge(struct vndf_impl_incidence_slopes i, int upper) {
-    return !i.front || (upper && i.a < VNDF_R(8.0));
-}
-VNDF_FN VNDF_REAL vndf_impl_slope_base(struct vndf_impl_incidence_slopes i, int edge) {
-    return edge ? (i.front ? -i.a : i.a) : VNDF_R(0.0);
-}
+// A visible slope: x, and y as accurate as it is small.
+struct vndf_impl_visible_slope {
+    VNDF_REAL x, y;
+};
 
-// s y, without the factor s behind the surface.
-VNDF_FN VNDF_REAL vndf_impl_slope_projection(struct vndf_impl_incidence_slopes i, int edge,
-                                             VNDF_REAL offset) {
-    return edge ? i.s * offset : VNDF_FMA(i.s, offset, i.c);
-}
-
-// scale e^(-t^2 - y^2), behind the surface relative to e^(-a^2). The squares carry their rounding errors along.
-VNDF_FN VNDF_REAL vndf_impl_slope_gaussian(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL offset,
-                                           VNDF_REAL y, VNDF_REAL scale) {
-    VNDF_REAL base = vndf_impl_slope_base(i, edge), t = base + offset;
-    VNDF_REAL p = i.front ? t : offset, q = i.front ? t : base + t;
-    VNDF_REAL square = p * q, exponent = VNDF_FMA(y, y, square);
-    VNDF_REAL low = VNDF_FMA(y, y, square - exponent);
-    return vndf_impl_scaled_exp(-exponent, -low - VNDF_FMA(p, q, -square), scale);
-}
-
-// 2 J = integral of 2 tau e^(2 a y tau - y^2 tau^2) over 0 < tau < 1, where 1 - C = 2 J y^2 / reach2, for |2 a y| <= 1 and
-// y <= 0.55: the sum of 2 H_n(a) y^n / (n! (n + 2)), of which the first omitted is below 2^-25 (double: 2^-54). Not `exact`,
-// it is good to 1e-3.
-VNDF_FN VNDF_REAL vndf_impl_edge_series(VNDF_REAL two_ay, VNDF_REAL y, int exact) {
-    VNDF_REAL w = VNDF_R(-2.0) * y * y, before = VNDF_R(1.0), g = two_ay, next;
-    VNDF_REAL sum = VNDF_FMA(VNDF_R(0.66666666666666666667), g, VNDF_R(1.0));
-    // clang-format off
-#define VNDF_IMPL_TERM(n)                                               \
-    next = VNDF_FMA(two_ay, g, w * before) * (VNDF_R(1.0) / VNDF_R(n)); \
-    before = g;                                                         \
-    g = next;                                                           \
-    sum = VNDF_FMA(VNDF_R(2.0) / (VNDF_R(n) + VNDF_R(2.0)), g, sum);
-    VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0)
-    VNDF_REAL rough = sum;
-    VNDF_IMPL_TERM(6.0) VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0)
-    VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0) VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0)
+// Integral of 2 (1 - tau) e^(z tau - w tau^2) over 0 < tau < 1, for w <= 1/16 and |z| <= 2/5: in double by the sum of
+// 2 h_n / ((n + 1)(n + 2)), where n h_n = z h_(n-1) - 2 w h_(n-2).
+VNDF_FN VNDF_REAL vndf_impl_edge_integral(VNDF_REAL z, VNDF_REAL w) {
 #if VNDF_DOUBLE
-    VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0) VNDF_IMPL_TERM(17.0)
-    VNDF_IMPL_TERM(18.0) VNDF_IMPL_TERM(19.0) VNDF_IMPL_TERM(20.0) VNDF_IMPL_TERM(21.0)
-    VNDF_IMPL_TERM(22.0) VNDF_IMPL_TERM(23.0) VNDF_IMPL_TERM(24.0) VNDF_IMPL_TERM(25.0)
-#endif
+    VNDF_REAL before = 1.0, h = z, v = -2.0 * w, next, sum = VNDF_FMA(0.33333333333333333333, z, 1.0);
+    // clang-format off
+#define VNDF_IMPL_TERM(n)                                   \
+    next = VNDF_FMA(z, h, v * before) * (1.0 / n);          \
+    before = h;                                             \
+    h = next;                                               \
+    sum = VNDF_FMA(2.0 / ((n + 1.0) * (n + 2.0)), h, sum);
+    VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0) VNDF_IMPL_TERM(6.0)
+    VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0)
+    VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0) VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0)
 #undef VNDF_IMPL_TERM
         // clang-format on
-        return exact
-        ? sum
-        : rough;
+        return sum;
+#else
+#define VNDF_IMPL_IN_Z_W(a, b, c, d, e, f, g, h, i, j, k, l)                                       \
+    VNDF_FMA(VNDF_FMA(VNDF_FMA(l, z, k), w, VNDF_FMA(VNDF_FMA(VNDF_FMA(j, z, i), z, h), z, g)), w, \
+             VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_FMA(f, z, e), z, d), z, c), z, b), z, a))
+    return VNDF_IMPL_EDGE(VNDF_IMPL_IN_Z_W, VNDF_R);
+#undef VNDF_IMPL_IN_Z_W
+#endif
 }
 
-// The mass C beyond t (upper: 1 - C, on this side of it), and the density of t.
-struct vndf_impl_slope_mass {
-    VNDF_REAL mass, density;
-    VNDF_REAL bend;  // derivative of the density over the density
-};
-VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_incidence_slopes i, int edge,
-                                                            VNDF_REAL offset, int upper, int exact) {
-    struct vndf_impl_slope_mass r;
-    VNDF_REAL base = vndf_impl_slope_base(i, edge), t = base + offset, x = vndf_impl_abs(t);
-    VNDF_REAL projection = vndf_impl_slope_projection(i, edge, offset);
-    VNDF_REAL e = vndf_impl_slope_gaussian(i, edge, offset, VNDF_R(0.0), VNDF_R(1.0) / i.sigma);
-    // For t < 0 the formula for C, with t replaced by |t|, gives 1 - C less the slopes that face away.
-    VNDF_REAL unit = e / vndf_impl_erfcx_denominator(x);
-    VNDF_REAL body = VNDF_R(0.5) * projection * vndf_impl_erfcx_numerator(x) * unit;
-    VNDF_REAL wing = i.s * vndf_impl_ierfcx_numerator(x) * unit;
-    int beyond = t >= VNDF_R(0.0);
-    VNDF_REAL mass = body + (beyond ? wing : i.hidden - wing);
-    mass = beyond == upper ? VNDF_R(1.0) - mass : mass;
-    // Next to the edge 1 - C is a difference of nearly equal terms.
-    VNDF_REAL two_ay = VNDF_R(-2.0) * base * offset;
-    int series = upper && edge && vndf_impl_abs(two_ay) <= VNDF_R(1.0) && offset <= VNDF_R(0.55);
-    VNDF_REAL y = series ? offset : VNDF_R(0.0);
-    VNDF_REAL close = y / i.reach2 * y * vndf_impl_edge_series(series ? two_ay : VNDF_R(0.0), y, exact);
-    r.mass = series ? close : mass;
-    r.density = VNDF_1_SQRT_PI * projection * e;
-    r.bend = i.s / (projection > VNDF_R(0.0) ? projection : VNDF_R(1.0)) - VNDF_R(2.0) * t;
+// Where to start, for the mass u below and q = 1 - u above: a polynomial in the size of a normal's quantile,
+// nu = -+sqrt(-log(4 u q)), and s = 2 / (2 + |a|), for x in front and y / s behind the surface. Next to the edge, where the
+// mass q is y^2 gaussian / (2 sqrt(pi) A) (1 + 4/3 a y), y by that: to 5 %, its root and quotient from the bits.
+VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
+                                                             VNDF_REAL q) {
+    struct vndf_impl_visible_slope r;
+    VNDF_REAL size = VNDF_SQRT(vndf_impl_max(-vndf_impl_rough_log(VNDF_R(4.0) * u * q), VNDF_R(0.0)));
+    VNDF_REAL nu = u < VNDF_R(0.5) ? -size : size, s = VNDF_R(2.0) / (VNDF_R(2.0) + i.a);
+    int front = i.front;
+    VNDF_REAL nu2 = nu * nu, s2 = s * s;
+#define VNDF_IMPL_SIDE(f, b) (front ? VNDF_R(f) : VNDF_R(b))
+#define VNDF_IMPL_IN_NU(a, b, c, d, e) VNDF_FMA(VNDF_FMA(VNDF_FMA(e, nu, d), nu, c), nu2, VNDF_FMA(b, nu, a))
+    VNDF_REAL c0 = VNDF_IMPL_START_0(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+    VNDF_REAL c1 = VNDF_IMPL_START_1(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+    VNDF_REAL c2 = VNDF_IMPL_START_2(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+    VNDF_REAL c3 = VNDF_IMPL_START_3(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+    VNDF_REAL c4 = VNDF_IMPL_START_4(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+#undef VNDF_IMPL_SIDE
+#undef VNDF_IMPL_IN_NU
+    VNDF_REAL p = VNDF_FMA(VNDF_FMA(VNDF_FMA(c4, s, c3), s, c2), s2, VNDF_FMA(c1, s, c0));
+
+    // 3.7, not 2 sqrt(pi): too far from the edge converges better than too near.
+    VNDF_INT one = VNDF_AS_INT(VNDF_R(1.0));
+    VNDF_INT bits = (VNDF_AS_INT(VNDF_R(3.7) * q * i.area) - VNDF_AS_INT(i.gaussian) + one) >> 1;
+    VNDF_REAL close = VNDF_AS_REAL(bits + (one >> 1));
+    VNDF_REAL cot = front ? i.a : -i.a, reach = front ? VNDF_R(2.7) : s, least = VNDF_R(0.05) * reach;
+    int edge = close < VNDF_R(0.1) * reach;
+    VNDF_REAL beside = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
+    VNDF_REAL inner = vndf_impl_max(front ? i.a - p : s * p, least);
+    r.y = edge ? beside : inner;
+    // Where a is large, a - y has lost the digits of x.
+    r.x = front && !edge ? vndf_impl_min(p, i.a - least) : cot - r.y;
     return r;
 }
+
+// One step towards the slope of mass u, of fifth order in Z = y^2: A C' = -e^(-x^2) / (2 sqrt(pi)) there, without a zero at
+// the edge, and (log A C')' = x / y. With v = 2 sqrt(pi) (A C - A u) e^(x^2) / y, the ratios of derivatives are powers of
+// k = v x and of -a v^2 / (2 y).
+VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
+                                                            VNDF_REAL q, struct vndf_impl_visible_slope r) {
+    VNDF_REAL y = r.y, x = r.x, size = vndf_impl_abs(x), rcp = VNDF_R(1.0) / y;
+    int right = x > VNDF_R(0.0), front = i.front;
+    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_at(size, VNDF_R(2.0) / (VNDF_R(2.0) + size));
+    VNDF_REAL e = vndf_impl_moderate_exp((front ? size : y) * (front ? size : i.a + size));
+    // A C e^(x^2), in front with y = a - x put in; for x > 0 both it and the target are less a e^(x^2).
+    VNDF_REAL weight = front ? (right ? -i.a : i.a) : y;
+    VNDF_REAL mass = VNDF_FMA(VNDF_R(0.5) * weight, f.erfcx, front ? VNDF_R(0.5) * VNDF_1_SQRT_PI : f.ierfcx);
+    VNDF_REAL target = right ? VNDF_FMA(-q, i.plateau, u * i.hidden) : u * i.area;
+    // Next to the edge the same from q, since masses near 1 are nearly equal.
+    VNDF_REAL square = y * y, lean = VNDF_R(-2.0) * x * y;
+    int edge = y <= VNDF_R(0.25) && vndf_impl_abs(lean) <= VNDF_R(0.4);
+    VNDF_REAL above =
+        square * vndf_impl_edge_integral(edge ? lean : VNDF_R(0.0), edge ? square : VNDF_R(0.0));
+    VNDF_REAL excess =
+        VNDF_FMA(edge ? q * i.area : -target, e, edge ? VNDF_R(-0.5) * VNDF_1_SQRT_PI * above : mass);
+
+    VNDF_REAL v = VNDF_R(2.0) * VNDF_SQRT_PI * rcp * excess, v2 = v * v, k = v * x, k2 = k * k;
+    VNDF_REAL cot = front ? i.a : -i.a, second = VNDF_R(-0.5) * cot * rcp,
+              third = VNDF_R(-1.5) * second * rcp;
+    VNDF_REAL l = second * v2, m = third * v2 * v;
+    VNDF_REAL b = (k2 + l) * VNDF_R(0.16666666666666666667), high = VNDF_R(1.0) + k + b;
+    VNDF_REAL cubic = VNDF_FMA(k, VNDF_FMA(VNDF_R(3.0), l, k2), m);
+    VNDF_REAL linear = VNDF_FMA(k, VNDF_FMA(k, VNDF_R(0.25), VNDF_R(1.5)), VNDF_R(1.0));
+    VNDF_REAL low = VNDF_FMA(cubic, VNDF_R(0.041666666666666666667), VNDF_FMA(VNDF_R(2.0), b, linear));
+    // Z grows by high v / (low y) of its size. Never as far as to the edge.
+    VNDF_REAL n = vndf_impl_max(v * rcp * high, VNDF_R(-0.9999999) * low);
+    VNDF_REAL shift = y * (n / (low + VNDF_SQRT(low * (low + n))));
+    r.y = y + shift;
+    r.x = x - shift;
+    return r;
+}
+
+// The slope with the mass u below it, monotone in u.
+VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i,
+                                                               VNDF_REAL u) {
+    VNDF_REAL q = VNDF_R(1.0) - u;
+    struct vndf_impl_visible_slope r = vndf_impl_slope_start(i, u, q);
+#if VNDF_DOUBLE
+    r = vndf_impl_slope_step(i, u, q, r);
+#endif
+    return vndf_impl_slope_step(i, u, q, r);
+}
+
+// --- Slopes as arguments give them ---
 
 // A slope within +-2^16 (double: 2^30): the cotangents that a cosine can have lie within, and beyond nothing of a Gaussian
 // is left.
@@ -128,7 +165,14 @@ VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
     return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
 
-// A slope x as arguments give it: its visible cosine, and y, how far it is from the edge cot(theta), 0 beyond.
+VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_angle(VNDF_REAL cos_theta) {
+    VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
+    VNDF_REAL steep = vndf_impl_abs(cos_theta) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    return vndf_impl_beckmann_incidence(sine > VNDF_R(0.0) ? steep : VNDF_IMPL_STEEP_LIMIT,
+                                        cos_theta >= VNDF_R(0.0));
+}
+
+// A slope x: its visible cosine, and y, how far it is from the edge cot(theta), 0 beyond.
 struct vndf_impl_seen_slope {
     struct vndf_impl_incidence_slopes slopes;
     VNDF_REAL x, visible, y;
@@ -136,135 +180,84 @@ struct vndf_impl_seen_slope {
 VNDF_FN struct vndf_impl_seen_slope vndf_impl_beckmann_seen_slope(VNDF_REAL cos_theta, VNDF_REAL slope) {
     struct vndf_impl_seen_slope s;
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    s.slopes = vndf_impl_beckmann_incidence(cos_theta, sine);
+    s.slopes = vndf_impl_beckmann_angle(cos_theta);
     s.x = vndf_impl_slope(slope);
     s.visible = vndf_impl_visible_cosine(cos_theta, s.x);
-    s.y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    VNDF_REAL y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    s.y = sine > VNDF_R(0.0) ? y : s.slopes.a;
     return s;
 }
 
-// Where to start. In front, with g = a + erfcinv(2 u) by Winitzki's approximation: y is near g + 0.35 / g for large g, where
-// the Gaussian is cut far away, and below sqrt(L reach2), L = -log(u). Behind the surface y (y + 2 |a|) lies between L, for
-// a = 0, and the root of v - log(1 + v) = L, for a = -infinity, near sqrt(2 L) + 3/4 L.
-VNDF_FN VNDF_REAL vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, int near_edge, VNDF_REAL u) {
-    VNDF_REAL rest = VNDF_R(1.0) - u, m = vndf_impl_min(u, rest);
-    VNDF_REAL log_r = vndf_impl_log(VNDF_R(4.0) * u * rest);
-    // -log(1 - m) to 1 % on [0, 1/2], and log(u) from it.
-    VNDF_REAL q =
-        VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_R(0.534), m, VNDF_R(0.278)), m, VNDF_R(0.5)), m, VNDF_R(1.0)) * m;
-    VNDF_REAL l = u > VNDF_R(0.5) ? q : VNDF_R(1.38629436) - log_r - q;
-    // In front, beyond a = 32, the edge is out of reach.
-    int distant = i.front && i.a > VNDF_R(32.0);
-    VNDF_REAL edge = distant ? VNDF_R(0.25) * VNDF_REAL_MAX : VNDF_SQRT(l * i.reach2);
-
-    VNDF_REAL part = VNDF_FMA(VNDF_R(0.5), log_r, VNDF_R(4.33074675));
-    VNDF_REAL square = VNDF_SQRT(VNDF_FMA(part, part, VNDF_R(-6.80272109) * log_r)) - part;
-    VNDF_REAL size = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), normal = u > VNDF_R(0.5) ? -size : size;
-    VNDF_REAL g = normal + i.a;
-    VNDF_REAL bow = VNDF_R(0.7) / (vndf_impl_abs(g) + VNDF_SQRT(VNDF_FMA(g, g, VNDF_R(1.4))));
-    VNDF_REAL in_front = near_edge ? vndf_impl_min(vndf_impl_max(g, VNDF_R(0.0)) + bow, edge)
-                                   : vndf_impl_min(vndf_impl_max(normal, -i.a) + bow, edge - i.a);
-
-    // a^2 reach2 rises from 0 at a = 0 to 1/2.
-    VNDF_REAL steep = i.front ? VNDF_R(0.0) : i.a * (i.a * i.reach2);
-    VNDF_REAL twice = i.front ? VNDF_R(0.0) : VNDF_R(2.0) * i.a;
-    VNDF_REAL v = VNDF_FMA(twice, edge, l * VNDF_FMA(VNDF_R(-0.5), steep, VNDF_R(1.0)));
-    VNDF_REAL behind = v / (i.a + VNDF_SQRT(VNDF_FMA(i.a, i.a, v)));
-    return i.front ? in_front : behind;
-}
-
-// One step from `offset`: Halley's on the logarithm of the mass over k, near 1 equal to 2 (mass - k) / (mass + k). Its
-// correction to Newton's is kept between 1/2 and 2.
-VNDF_FN VNDF_REAL vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL k, int upper,
-                                       int exact, VNDF_REAL offset) {
-    struct vndf_impl_slope_mass m = vndf_impl_slope_mass_of(i, edge, offset, upper, exact);
-    VNDF_REAL excess = upper ? k - m.mass : m.mass - k, sum = m.mass + k;
-    VNDF_REAL scale = m.mass / m.density;
-    VNDF_REAL bend = excess * VNDF_FMA(m.bend, scale, upper ? VNDF_R(-1.0) : VNDF_R(1.0));
-    bend = vndf_impl_min(vndf_impl_max(bend, VNDF_R(-0.5) * sum), sum);
-    return offset + VNDF_R(2.0) * excess * scale / (sum + bend);
-}
-
-// The offset of the slope with the mass u beyond it, where u is `upper` and its slope near the `edge`; monotone in u.
-// Masses from 3/4 up count as upper: below, C itself is accurate enough, and above the series reaches far enough.
-VNDF_FN int vndf_impl_slope_is_upper(VNDF_REAL u) {
-    return u > VNDF_R(0.75);
-}
-VNDF_FN VNDF_REAL vndf_impl_slope_of_mass(struct vndf_impl_incidence_slopes i, int edge, VNDF_REAL u) {
-    int upper = vndf_impl_slope_is_upper(u);
-    VNDF_REAL k = upper ? VNDF_R(1.0) - u : u;
-    // The bracket: from 1/2 to 5/2 of the start in y, otherwise 1 to either side. Three steps (double: four) reach
-    // rounding.
-    VNDF_REAL start = vndf_impl_slope_start(i, edge, u);
-    VNDF_REAL low = edge ? VNDF_R(0.5) * start : start - VNDF_R(1.0);
-    VNDF_REAL high = edge ? VNDF_R(2.5) * start : start + VNDF_R(1.0);
-#define VNDF_IMPL_STEP(from, exact) \
-    vndf_impl_min(vndf_impl_max(vndf_impl_slope_step(i, edge, k, upper, exact, from), low), high)
-    VNDF_REAL offset = VNDF_IMPL_STEP(start, 0);
-    offset = VNDF_IMPL_STEP(offset, 0);
-#if VNDF_DOUBLE
-    offset = VNDF_IMPL_STEP(offset, 1);
-#endif
-    return VNDF_IMPL_STEP(offset, 1);
-#undef VNDF_IMPL_STEP
+// scale e^(-x^2), behind the surface relative to e^(-a^2). The square carries its rounding error along.
+VNDF_FN VNDF_REAL vndf_impl_slope_gaussian(struct vndf_impl_seen_slope s, VNDF_REAL scale) {
+    int front = s.slopes.front;
+    VNDF_REAL p = front ? s.x : s.y, q = front ? s.x : VNDF_FMA(VNDF_R(2.0), s.slopes.a, s.y), square = p * q;
+    return vndf_impl_scaled_exp(-square, -VNDF_FMA(p, q, -square), scale);
 }
 
 // --- What the samplers share ---
 
-// The plane of incidence of a stretched view direction: its azimuth, (1, 0) if it has none, and its slopes.
+// The plane of incidence of a stretched view direction: its azimuth, (1, 0) if it has none, and its slopes. Squares are
+// formed 2^40 times larger: they keep full precision down to wo.x = 1e-19 for every alpha in the domain.
 struct vndf_impl_beckmann_frame {
-    VNDF_REAL alpha_x, alpha_y, ex, ey, z, l;
+    VNDF_REAL alpha_x, alpha_y, ex, ey;
+    int sees;  // anything: not so at wo = -z
     struct vndf_impl_incidence_slopes slopes;
 };
 VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
     struct vndf_impl_beckmann_frame f;
-    VNDF_REAL rcp_r = VNDF_R(1.0) / v.r;
-    f.alpha_x = v.alpha_x;
-    f.alpha_y = v.alpha_y;
-    f.ex = vndf_impl_azimuth_x(v);
-    f.ey = vndf_impl_azimuth_y(v);
-    f.z = v.z;
-    f.l = v.l;
-    f.slopes = vndf_impl_beckmann_incidence(v.z * rcp_r, v.l * rcp_r);
+    f.alpha_x = vndf_impl_alpha(alpha.x);
+    f.alpha_y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL up = VNDF_R(1099511627776.0), least = VNDF_R(1e6) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL x = f.alpha_x * up * wo.x, y = f.alpha_y * up * wo.y, square = VNDF_FMA(x, x, y * y);
+    int tilted = square > least;
+    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(tilted ? square : least);
+    f.ex = tilted ? x * rcp : VNDF_R(1.0);
+    f.ey = tilted ? y * rcp : VNDF_R(0.0);
+    f.sees = tilted || wo.z >= VNDF_R(0.0);
+    VNDF_REAL steep = vndf_impl_min(vndf_impl_abs(wo.z) * up * rcp, VNDF_IMPL_STEEP_LIMIT);
+    f.slopes = vndf_impl_beckmann_incidence(steep, wo.z >= VNDF_R(0.0));
     return f;
 }
 
 // The normal that leans by t towards and by y across e before the stretch, and its density, `weight` in slopes: times
-// |g|^3 / (alpha_x alpha_y) for g = (alpha_x h_x, alpha_y h_y, 1). All is scaled by a power of two near 1 / t: squares of t
-// may overflow. `hidden`, a constant: wo may be behind the surface, where t and the density have no bounds.
+// |g|^3 / (alpha_x alpha_y) for g = (alpha_x h_x, alpha_y h_y, 1).
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL t,
                                                              VNDF_REAL y, VNDF_REAL alpha_x,
-                                                             VNDF_REAL alpha_y, VNDF_REAL weight,
-                                                             int hidden) {
+                                                             VNDF_REAL alpha_y, VNDF_REAL weight) {
     struct vndf_impl_sample m;
-    VNDF_REAL scale = vndf_impl_scale(VNDF_R(1.0) + vndf_impl_abs(t));
-    VNDF_REAL ts = t * scale, ys = y * scale;
-    VNDF_REAL gx = alpha_x * vndf_impl_difference_of_products(ts, ex, ys, ey);
-    VNDF_REAL gy = alpha_y * vndf_impl_difference_of_products(ts, ey, -ys, ex);
-    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, scale * scale)), length = VNDF_SQRT(length2);
-    VNDF_REAL rcp = VNDF_R(1.0) / length, rise = length / scale;
+    // Two forms: alike they would be packed (impl/stretch.h).
+    VNDF_REAL gx = alpha_x * VNDF_FMA(t, ex, -(y * ey)), gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t);
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, VNDF_R(1.0))), length = VNDF_SQRT(length2);
+    VNDF_REAL rcp = VNDF_R(1.0) / length;
     m.x = gx * rcp;
     m.y = gy * rcp;
-    m.z = scale * rcp;
-    struct vndf_impl_power up = vndf_impl_split(rise), steep;
-    steep.part = weight * up.part / (alpha_x * alpha_y) * up.part * up.part;
-    steep.exponent = 3 * up.exponent;
-    m.pdf = vndf_impl_finite(hidden ? vndf_impl_bounded_power(steep)
-                                    : weight * rise / (alpha_x * alpha_y) * rise * rise);
-    return vndf_impl_where(length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX, m);
+    m.z = rcp;
+    // The cube of a length may be no number.
+    struct vndf_impl_power rise = vndf_impl_split(length);
+    VNDF_REAL part = weight * rise.part / (alpha_x * alpha_y) * rise.part * rise.part;
+    m.pdf = vndf_impl_times_power(part, 3 * rise.exponent);
+    return vndf_impl_where(length2 <= VNDF_REAL_MAX, m);
 }
 
 // The normal of a slope in the plane of incidence and of one of y across it, with its visible density.
-VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f, int edge,
-                                                          VNDF_REAL offset, VNDF_REAL y, int hidden) {
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f,
+                                                          struct vndf_impl_visible_slope r,
+                                                          VNDF_REAL across) {
     struct vndf_impl_incidence_slopes i = f.slopes;
-    VNDF_REAL projection = vndf_impl_max(vndf_impl_slope_projection(i, edge, offset), VNDF_R(0.0));
-    VNDF_REAL weight = vndf_impl_slope_gaussian(i, edge, offset, y, VNDF_1_PI * projection / i.sigma);
-    // At wo = -z nothing is visible.
-    weight = i.front || f.l > VNDF_R(0.0) ? weight : VNDF_R(0.0);
-    VNDF_REAL t = vndf_impl_slope_base(i, edge) + offset;
-    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, y, f.alpha_x, f.alpha_y, weight, hidden);
+    VNDF_REAL p = i.front ? r.x : r.y, q = i.front ? r.x : VNDF_FMA(VNDF_R(2.0), i.a, r.y);
+    VNDF_REAL square = p * q, exponent = VNDF_FMA(across, across, square);
+    VNDF_REAL low = VNDF_FMA(across, across, square - exponent) + VNDF_FMA(p, q, -square);
+    // Where |a| is limited, the density grows with it on.
+    VNDF_REAL beyond = vndf_impl_max(i.steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
+    VNDF_REAL share = VNDF_1_PI * r.y / i.area * (i.front ? VNDF_R(1.0) : beyond);
+    VNDF_REAL e = vndf_impl_moderate_exp(-exponent),
+              weight = f.sees ? share * VNDF_FMA(-low, e, e) : VNDF_R(0.0);
+    VNDF_REAL t = i.front ? -r.x : i.steep + r.y;
+    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, across, f.alpha_x, f.alpha_y, weight);
 }
+
+#undef VNDF_IMPL_STEEP_LIMIT
+#undef VNDF_IMPL_COT_LIMIT
 
 #endif

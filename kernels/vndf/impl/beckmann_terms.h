@@ -5,31 +5,22 @@
 #include "exact.h"
 #include "stretch.h"
 
-// A direction as the slopes of the stretched surface see it.
-struct vndf_impl_slopes {
-    VNDF_REAL a;         // |cot theta|, at most 2^60 (double: 2^120)
-    VNDF_REAL hidden;    // I(|a|)
-    VNDF_REAL gaussian;  // e^(-a^2)
-};
-// The limit: beyond it a Gaussian is cut nowhere, or seen at a cosine that rounds to 0; l = 0 is normal incidence.
-VNDF_FN struct vndf_impl_slopes vndf_impl_slopes_of(VNDF_REAL l, VNDF_REAL z) {
-    struct vndf_impl_slopes s;
+// |cot theta| of a stretched direction, at most 2^60 (double: 2^120): beyond, a Gaussian is cut nowhere, or seen at a cosine
+// that rounds to 0; l = 0 is normal incidence.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_cot(VNDF_REAL l, VNDF_REAL z) {
     VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1.329227995784916e36) : VNDF_R(1152921504606846976.0);
-    s.a = l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
-    s.hidden = vndf_impl_ierfcx(s.a);
-    s.gaussian = vndf_impl_expx2(s.a);
-    return s;
+    return l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
 }
 
-// D for a normal (x, y, z), taken literally.
+// weight D for a normal (x, y, z), taken literally.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
-                                       VNDF_REAL alpha_y) {
+                                       VNDF_REAL alpha_y, VNDF_REAL weight) {
     // Where z is below 2^-16, or a slope beyond 2^20 alpha, the exponential is 0.
     VNDF_REAL up = vndf_impl_max(z, VNDF_R(1.52587890625e-05)), limit = VNDF_R(1048576.0);
     VNDF_REAL z2 = up * up, sx = vndf_impl_min(vndf_impl_abs(x), alpha_x * limit) / alpha_x / up,
               sy = vndf_impl_min(vndf_impl_abs(y), alpha_y * limit) / alpha_y / up;
     VNDF_REAL d = vndf_impl_scaled_exp(-VNDF_FMA(sx, sx, sy * sy), VNDF_R(0.0),
-                                       VNDF_1_PI / ((z2 * alpha_x) * (z2 * alpha_y)));
+                                       VNDF_1_PI * weight / ((z2 * alpha_x) * (z2 * alpha_y)));
     return z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
 }
 
@@ -42,10 +33,18 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_l(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, low + low))) * VNDF_R(7.450580596923828125e-09);
 }
 
-// Lambda of w or -w, whichever is above the horizon.
+// Lambda of w or -w, whichever is above the horizon: e^(-a^2) I(a) / a, 0 from a = 14 (double: 40) on.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_upper_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(vndf_impl_beckmann_l(w, alpha), w.z);
-    return vndf_impl_finite(vndf_impl_bounded_quotient(s.hidden * s.gaussian, s.a));
+    VNDF_REAL a = vndf_impl_beckmann_cot(vndf_impl_beckmann_l(w, alpha), w.z);
+    a = vndf_impl_min(a, VNDF_DOUBLE ? VNDF_R(40.0) : VNDF_R(14.0));
+    return vndf_impl_scaled_expx2(a, vndf_impl_bounded_quotient(vndf_impl_scaled_erfc_of(a).ierfcx, a));
+}
+
+// What w does not see, l e^(-a^2) I(|a|).
+VNDF_FN VNDF_REAL vndf_impl_beckmann_unseen(VNDF_REAL l, VNDF_REAL z) {
+    VNDF_REAL a = vndf_impl_beckmann_cot(l, z);
+    a = vndf_impl_min(a, VNDF_DOUBLE ? VNDF_R(40.0) : VNDF_R(14.0));
+    return vndf_impl_scaled_expx2(a, l * vndf_impl_scaled_erfc_of(a).ierfcx);
 }
 
 // The exponent of D / sigma(wo) behind the surface, q - a^2, for a normal that faces away from wo, as a sum of two
@@ -78,7 +77,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
                                              VNDF_REAL cosine, int rounded, VNDF_REAL rise, VNDF_REAL weight,
                                              VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_slopes s = vndf_impl_slopes_of(v.l, wo.z);
+    VNDF_REAL a = vndf_impl_beckmann_cot(v.l, wo.z), hidden_area = vndf_impl_scaled_erfc_of(a).ierfcx;
     int front = wo.z >= VNDF_R(0.0);
     // Slopes beyond 2^62 (double: 2^510) have the density 0.
     VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
@@ -92,16 +91,16 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
     VNDF_REAL across =
         vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, v.y, sy, v.x) * v.rcp_l), limit);
-    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), s.a, lean), across * across);
+    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), a, lean), across * across);
     struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
     int away = rounded && !front && tau < VNDF_R(0.0);
     VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
     // Powers of two apart: below the horizon l I(a) may be as small as weight.
     // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
     // (impl/stretch.h).
-    struct vndf_impl_power area = vndf_impl_split(front ? VNDF_FMA(l * s.gaussian, s.hidden, wo.z) : l),
+    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_unseen(v.l, wo.z) + wo.z : l),
                            scale;
-    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? s.hidden : VNDF_R(1.0));
+    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? hidden_area : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
     VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
     scale.part = VNDF_1_PI * share * up.part / (v.alpha_x * v.alpha_y) * up.part;

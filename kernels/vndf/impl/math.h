@@ -30,22 +30,37 @@
 #define VNDF_IMPL_FIRST(c) VNDF_REAL p = VNDF_R(c);
 #define VNDF_IMPL_NEXT(c) p = VNDF_FMA(p, z, VNDF_R(c));
 
+// The same in float by Estrin's scheme, whose parts do not wait for each other: lowest power first, with z2 and z4. The last
+// step is Horner's, which rounds less; z^8 would leave the range of numbers.
+#define VNDF_IMPL_P2(a, b) VNDF_FMA(b, z, a)
+#define VNDF_IMPL_P4(a, b, c, d) VNDF_FMA(VNDF_IMPL_P2(c, d), z2, VNDF_IMPL_P2(a, b))
+#define VNDF_IMPL_P8(a, b, c, d, e, f, g, h) VNDF_FMA(VNDF_IMPL_P4(e, f, g, h), z4, VNDF_IMPL_P4(a, b, c, d))
+#define VNDF_IMPL_P9(a, b, c, d, e, f, g, h, i) VNDF_FMA(VNDF_IMPL_P8(b, c, d, e, f, g, h, i), z, a)
+#define VNDF_IMPL_P12(a, b, c, d, e, f, g, h, i, j, k, l) \
+    VNDF_FMA(VNDF_IMPL_P8(e, f, g, h, i, j, k, l), z4, VNDF_IMPL_P4(a, b, c, d))
+#define VNDF_IMPL_P13(a, b, c, d, e, f, g, h, i, j, k, l, m) \
+    VNDF_FMA(VNDF_IMPL_P12(b, c, d, e, f, g, h, i, j, k, l, m), z, a)
+
 #if VNDF_DOUBLE
 #define VNDF_IMPL_MANTISSA_BITS 52
 #define VNDF_IMPL_EXPONENT_BIAS 1023
 #define VNDF_IMPL_ROUNDER 6755399441055744.0           // 1.5 * 2^52: x + it - it rounds to an integer
 #define VNDF_IMPL_LN2_HIGH 6.93147180369123816490e-01  // 33 bits, so that its multiples up to 2^20 are exact
 #define VNDF_IMPL_LN2_LOW 1.90821492927058770002e-10
-#define VNDF_IMPL_EXP_MIN -1400.0  // exp(x / 2) is still normal
-#define VNDF_IMPL_MAX 1.7976931348623157e308
+#define VNDF_IMPL_EXP_MIN -1400.0                    // exp(x / 2) is still normal
+#define VNDF_IMPL_LEAST 2.22507385850720138309e-308  // 2^-1022, the least normal number
+#define VNDF_IMPL_ROOT_LEAST \
+    7.45834073120020674329e-155  // 2^-512: 1 over the root of what is no number any more
 #else
 #define VNDF_IMPL_MANTISSA_BITS 23
 #define VNDF_IMPL_EXPONENT_BIAS 127
 #define VNDF_IMPL_ROUNDER 12582912.0f    // 1.5 * 2^23: x + it - it rounds to an integer
 #define VNDF_IMPL_LN2_HIGH 0.693359375f  // 9 bits, so that its multiples up to 2^15 are exact
 #define VNDF_IMPL_LN2_LOW -2.12194440e-4f
-#define VNDF_IMPL_EXP_MIN -174.0f  // exp(x / 2) is still normal
-#define VNDF_IMPL_MAX 3.402823466e38f
+#define VNDF_IMPL_EXP_MIN -174.0f                    // exp(x / 2) is still normal
+#define VNDF_IMPL_LEAST 1.17549435082228750797e-38f  // 2^-126, the least normal number
+#define VNDF_IMPL_ROOT_LEAST \
+    5.42101086242752217004e-20f  // 2^-64: 1 over the root of what is no number any more
 #endif
 
 VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
@@ -59,11 +74,6 @@ VNDF_FN VNDF_REAL vndf_impl_max(VNDF_REAL x, VNDF_REAL limit) {
 }
 VNDF_FN VNDF_REAL vndf_impl_square(VNDF_REAL x) {
     return x * x;
-}
-
-// 2^k for exponents of normal numbers.
-VNDF_FN VNDF_REAL vndf_impl_exp2i(VNDF_INT k) {
-    return VNDF_AS_REAL((k + VNDF_IMPL_EXPONENT_BIAS) << VNDF_IMPL_MANTISSA_BITS);
 }
 
 // sin(2 pi x) for |x| <= 1/4.
@@ -115,20 +125,54 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
 #endif
 }
 
-// scale * exp(x + low), |low| <= 1e-2, for every scale and x: exp(x) itself may leave the range of numbers. 0 below
-// x = -174 / -1400; as for x = 174 / 1400 above. Accuracy: 2.5 / 2.5 where the result is normal.
+// log(x) for x in [2^-66, 1] (double: as vndf_impl_log). Accuracy: 2 / 2.
+VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
+#if VNDF_IMPL_STRICT && !VNDF_DOUBLE
+    // As above, without a division: log(1 + f) = f + f^2 p(f).
+    VNDF_INT low = VNDF_AS_INT(0.70710678118654752440f), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
+    VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
+    VNDF_REAL z = VNDF_AS_REAL((bits & 0x7fffff) + low) - 1.0f;
+    VNDF_REAL z2 = z * z, z4 = z2 * z2, p = VNDF_IMPL_LOG1P(VNDF_IMPL_P9, VNDF_R);
+    return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z)) +
+           (x - x);  // the bits of NaN are no number
+#else
+    return vndf_impl_log(x);
+#endif
+}
+// The same to 4e-4 of its size, with every policy.
+VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
+    VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440)), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
+    VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
+    VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
+    VNDF_REAL z = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
+    VNDF_IMPL_LOG1P_ROUGH(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+    return VNDF_FMA(k, VNDF_R(0.69314718055994530942), z * p);
+}
+
+// x 2^exponent for x >= 0: 0 where that is no normal number, and at most the largest finite one.
+VNDF_FN VNDF_REAL vndf_impl_times_power(VNDF_REAL x, VNDF_INT exponent) {
+    VNDF_INT bits = VNDF_AS_INT(x), biased = (bits >> VNDF_IMPL_MANTISSA_BITS) + exponent;
+    int below = x < VNDF_IMPL_LEAST || biased < 1;
+    int beyond = biased > 2 * VNDF_IMPL_EXPONENT_BIAS;
+    VNDF_INT kept = below || beyond ? 0 : exponent;
+    VNDF_REAL result = VNDF_AS_REAL(bits + kept * ((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS));
+    result = beyond ? VNDF_REAL_MAX : result;
+    return x == x ? (below ? VNDF_R(0.0) : result) : x;
+}
+
+// scale * exp(x + low), |low| <= 1e-2, for every scale >= 0 and x: exp(x) itself may leave the range of numbers. 0 below
+// x = -174 / -1400 and where the result is no normal number; as for x = 174 / 1400 above. Accuracy: 2.5 / 2.5.
 VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL scale) {
     VNDF_REAL bounded = vndf_impl_min(vndf_impl_max(x, VNDF_IMPL_EXP_MIN), -VNDF_IMPL_EXP_MIN);
 #if VNDF_IMPL_STRICT
-    // x = k log(2) + z; the scale 2^k in two steps, so that neither leaves the normal range.
+    // x = k log(2) + z.
     VNDF_REAL shifted = VNDF_FMA(bounded, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
     VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
     VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, bounded)) + low;
     VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
-    VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER);
-    VNDF_INT first = exponent >> 1;
-    VNDF_REAL result = scale * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(exponent - first);
+    VNDF_REAL result =
+        vndf_impl_times_power(scale * power, VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER));
 #else
     VNDF_REAL root = VNDF_IMPL_FAST(exp)(VNDF_R(0.5) * bounded);
     VNDF_REAL result = scale * root * VNDF_FMA(root, low, root);
@@ -136,21 +180,26 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
     return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
 }
 
+// exp(x) for |x| <= 80 / 600: neither ends nor scale are to be minded. Accuracy: 1.5 / 2.
+VNDF_FN VNDF_REAL vndf_impl_moderate_exp(VNDF_REAL x) {
+#if VNDF_IMPL_STRICT
+    VNDF_REAL shifted = VNDF_FMA(x, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
+    VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
+    VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, x));
+    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+    VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
+    // k is in the last bits of `shifted`; the others leave by the shift.
+    return VNDF_AS_REAL(VNDF_AS_INT(power) + (VNDF_AS_INT(shifted) << VNDF_IMPL_MANTISSA_BITS));
+#else
+    return VNDF_IMPL_FAST(exp)(x);
+#endif
+}
+
 // A number as part 2^exponent.
 struct vndf_impl_power {
     VNDF_REAL part;
     VNDF_INT exponent;
 };
-
-VNDF_FN VNDF_INT vndf_impl_within(VNDF_INT x, VNDF_INT most) {
-    VNDF_INT low = x < -most ? -most : x;
-    return low > most ? most : low;
-}
-// Whether part 2^exponent, for part < 2^126 and exponents up to 252 (double: 2044), is more than the largest finite number.
-VNDF_FN int vndf_impl_power_beyond(VNDF_REAL part, VNDF_INT exponent) {
-    VNDF_INT room = VNDF_IMPL_EXPONENT_BIAS + 1 - exponent;
-    return part >= vndf_impl_exp2i(room > 126 ? 126 : room);
-}
 
 // scale e^(x + low), |low| <= 1e-2, scale.part in [0, 2^60]: as vndf_impl_scaled_exp, but for a scale of any size, and never
 // more than the largest finite number.
@@ -166,14 +215,11 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_
     VNDF_REAL power = VNDF_IMPL_FAST(exp)(z);
 #endif
     VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
-    VNDF_INT all = vndf_impl_within(exponent, 2 * VNDF_IMPL_EXPONENT_BIAS - 2), first = all >> 1;
-    int beyond = vndf_impl_power_beyond(scale.part * power, all);
-    VNDF_REAL result =
-        beyond ? VNDF_IMPL_MAX : scale.part * vndf_impl_exp2i(first) * power * vndf_impl_exp2i(all - first);
+    VNDF_REAL result = vndf_impl_times_power(scale.part * power, exponent);
     return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
 }
 
-// exp(x) for x <= 88 / 700; subnormal, then 0 below. Accuracy: 1.5 / 2; 1.02 ulp where the result is normal.
+// exp(x) for x <= 88 / 700; 0 where that is no normal number. Accuracy: 1.5 / 2; 1.02 ulp where the result is normal.
 VNDF_FN VNDF_REAL vndf_impl_exp(VNDF_REAL x) {
     return vndf_impl_scaled_exp(x, VNDF_R(0.0), VNDF_R(1.0));
 }
@@ -192,93 +238,66 @@ VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) {
     return vndf_impl_scaled_expx2(x, VNDF_R(1.0));
 }
 
-// erfcx(x) = exp(x^2) erfc(x) and ierfcx(x) = exp(x^2) ierfc(x) / 2 over their common shape 1 / (1 + sqrt(pi) x + 2 x^2),
-// for 0 <= x <= 1e18 / 1e150: a caller that needs both divides once.
-VNDF_FN VNDF_REAL vndf_impl_erfcx_denominator(VNDF_REAL x) {
-    return VNDF_FMA(x, VNDF_FMA(VNDF_R(2.0), x, VNDF_SQRT_PI), VNDF_R(1.0));
-}
-VNDF_FN VNDF_REAL vndf_impl_erfcx_numerator(VNDF_REAL x) {
-    VNDF_REAL z = (x - VNDF_R(2.0)) / (x + VNDF_R(2.0));
-    VNDF_IMPL_ERFCX(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    return p * VNDF_FMA(x, VNDF_R(2.0) * VNDF_1_SQRT_PI, VNDF_R(1.0));
-}
-VNDF_FN VNDF_REAL vndf_impl_ierfcx_numerator(VNDF_REAL x) {
-    VNDF_REAL z = (x - VNDF_R(2.0)) / (x + VNDF_R(2.0));
-    VNDF_IMPL_IERFCX(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    return p;
-}
-
-// exp(x^2) erfc(x), as above. Accuracy: 5.2 / 5.2; 4.72 ulp.
-VNDF_FN VNDF_REAL vndf_impl_erfcx(VNDF_REAL x) {
-    return vndf_impl_erfcx_numerator(x) / vndf_impl_erfcx_denominator(x);
-}
-
-// exp(x^2) ierfc(x) / 2 = (1 - sqrt(pi) x erfcx(x)) / (2 sqrt(pi)), as above. Accuracy: 4.3 / 4.5; 3.60 ulp.
-VNDF_FN VNDF_REAL vndf_impl_ierfcx(VNDF_REAL x) {
-    return vndf_impl_ierfcx_numerator(x) / vndf_impl_erfcx_denominator(x);
-}
-
-// erfc(x), every x. Accuracy: 6.2 / 6.2; 5.31 ulp where the result is normal.
-VNDF_FN VNDF_REAL vndf_impl_erfc(VNDF_REAL x) {
-#if VNDF_IMPL_STRICT
-    VNDF_REAL y = vndf_impl_min(vndf_impl_abs(x), VNDF_DOUBLE ? VNDF_R(30.0) : VNDF_R(14.0));  // 0 beyond it
-    VNDF_REAL e = vndf_impl_scaled_expx2(y, vndf_impl_erfcx(y));
-    return x < VNDF_R(0.0) ? VNDF_R(2.0) - e : e;
+// erfcx(x) = exp(x^2) erfc(x) and ierfcx(x) = exp(x^2) ierfc(x) / 2 for 0 <= x <= 1e18 / 1e150, from one polynomial r in
+// v = 2 / (2 + x):
+//     erfcx = v ((1 + v) / (2 sqrt(pi)) + v^2 (7 / (16 sqrt(pi)) + v r)),
+//     ierfcx = v^2 (1 / (16 sqrt(pi)) + v (7 / (16 sqrt(pi)) - (1 - v) r)), or (1 / sqrt(pi) - x erfcx) / 2 for small x.
+struct vndf_impl_scaled_erfc {
+    VNDF_REAL erfcx, ierfcx;
+};
+VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_REAL v) {
+    struct vndf_impl_scaled_erfc f;
+    VNDF_REAL v2 = v * v;
+#if VNDF_DOUBLE
+    VNDF_REAL z = v - 0.5;
+    VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
 #else
-    return VNDF_IMPL_STD(erfc)(x);
+    // Of a smaller v it does not matter, but its powers would be no normal numbers.
+    VNDF_REAL z = vndf_impl_max(v, 5.9604644775390625e-08f), z2 = z * z, z4 = z2 * z2;
+    VNDF_REAL p = VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_P12, VNDF_R);
 #endif
+    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
+    f.erfcx = v * VNDF_FMA(v2, VNDF_FMA(v, p, third), VNDF_FMA(v, first, first));
+    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), p, third), VNDF_R(0.03526184897173476793));
+    f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : tail;
+    return f;
 }
-
-// erf(x) for x >= 0, whose erfc(x) is at hand. Accuracy: 5.4 / 5.4; 2.79 ulp.
-VNDF_FN VNDF_REAL vndf_impl_erf_of(VNDF_REAL x, VNDF_REAL erfc_x) {
-    VNDF_REAL z = vndf_impl_square(vndf_impl_min(x, VNDF_R(1.0)));  // beyond 1/2 it is not used
-    VNDF_IMPL_ERF(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    return x <= VNDF_R(0.5) ? VNDF_FMA(x, VNDF_R(1.125), p * x) : VNDF_R(1.0) - erfc_x;
-}
-
-// erf(x), every x. Accuracy: 5.4 / 5.4; 2.79 ulp.
-VNDF_FN VNDF_REAL vndf_impl_erf(VNDF_REAL x) {
-#if VNDF_IMPL_STRICT
-    VNDF_REAL y = vndf_impl_abs(x), e = vndf_impl_erf_of(y, vndf_impl_erfc(y));
-    return x < VNDF_R(0.0) ? -e : e;
-#else
-    return VNDF_IMPL_STD(erf)(x);
-#endif
+// The same where the last digits count: v with the rounding errors of 2 + x and of the quotient.
+VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_of(VNDF_REAL x) {
+    VNDF_REAL sum = VNDF_R(2.0) + x, low = x - (sum - VNDF_R(2.0)), v = VNDF_R(2.0) / sum;
+    VNDF_REAL rest = VNDF_FMA(-v, low, VNDF_FMA(-v, sum, VNDF_R(2.0)));
+    return vndf_impl_scaled_erfc_at(x, VNDF_FMA(VNDF_R(0.5) * v, rest, v));
 }
 
 #if VNDF_DOUBLE
 #define VNDF_IMPL_SELECT(a, b, c) (centre ? VNDF_R(a) : (middle ? VNDF_R(b) : VNDF_R(c)))
-#else
-#define VNDF_IMPL_SELECT(a, b) (centre ? VNDF_R(a) : VNDF_R(b))
-#endif
-#if VNDF_DOUBLE
 #define VNDF_IMPL_FIRST_OF(a, b, c) VNDF_REAL p = VNDF_IMPL_SELECT(a, b, c);
 #define VNDF_IMPL_NEXT_OF(a, b, c) p = VNDF_FMA(p, z, VNDF_IMPL_SELECT(a, b, c));
 #else
-#define VNDF_IMPL_FIRST_OF(a, b) VNDF_REAL p = VNDF_IMPL_SELECT(a, b);
-#define VNDF_IMPL_NEXT_OF(a, b) p = VNDF_FMA(p, z, VNDF_IMPL_SELECT(a, b));
+#define VNDF_IMPL_SELECT(a, b) (centre ? VNDF_R(a) : VNDF_R(b))
 #endif
 
-// erfinv(p) / p as a function of w = -log(1 - p^2), 0 <= w <= 88 / 744.
-VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio_of_log(VNDF_REAL w) {
-    VNDF_REAL root = VNDF_SQRT(vndf_impl_max(w, VNDF_R(1.0)));
-    VNDF_REAL inverse = VNDF_R(1.0) / root;
+// erfinv(p) / p as a function of w = -log(1 - p^2), 0 <= w <= 42 / 744, and of its root.
+VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio_of_log(VNDF_REAL w, VNDF_REAL root) {
     bool centre =
         w <= VNDF_R(7.0);  // one polynomial, whose coefficients are selected: two would not vectorise
 #if VNDF_DOUBLE
+    VNDF_REAL inverse = 1.0 / (centre ? 1.0 : root);
     bool middle = w <= 40.0;
     VNDF_REAL z = centre ? w - 3.5 : inverse - (middle ? 0.25 : 0.1);
-#else
-    VNDF_REAL z = centre ? w - 3.5f : inverse - 0.25f;
-#endif
     VNDF_IMPL_ERFINV(VNDF_IMPL_FIRST_OF, VNDF_IMPL_NEXT_OF)
     return centre ? p : p * root;
+#else
+    VNDF_REAL z = centre ? w - 3.5f : root - 4.5f, z2 = z * z, z4 = z2 * z2;
+    return VNDF_IMPL_ERFINV(VNDF_IMPL_P13, VNDF_IMPL_SELECT);
+#endif
 }
 
 // erfinv(p) / p as a function of r = 1 - p^2 = q (2 - q), q = 1 - p, for r in (0, 1]; a caller that has both p and q
 // without cancellation gets erfinv(p) = erfcinv(q) accurate at both ends. Accuracy: 3.5 / 8; 3.04 ulp.
 VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio(VNDF_REAL r) {
-    return vndf_impl_erfinv_ratio_of_log(-vndf_impl_log(r));
+    VNDF_REAL w = vndf_impl_max(-vndf_impl_log_of_share(r), VNDF_R(0.0));
+    return vndf_impl_erfinv_ratio_of_log(w, VNDF_SQRT(w));
 }
 
 // erfcinv(q) for q in (0, 2). Accuracy: 4.1 / 10; 3.27 ulp.
@@ -349,8 +368,16 @@ VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
 
 #undef VNDF_IMPL_FIRST
 #undef VNDF_IMPL_NEXT
+#undef VNDF_IMPL_P2
+#undef VNDF_IMPL_P4
+#undef VNDF_IMPL_P8
+#undef VNDF_IMPL_P9
+#undef VNDF_IMPL_P12
+#undef VNDF_IMPL_P13
 #undef VNDF_IMPL_SELECT
+#if VNDF_DOUBLE
 #undef VNDF_IMPL_FIRST_OF
 #undef VNDF_IMPL_NEXT_OF
+#endif
 
 #endif

@@ -4,16 +4,6 @@
 
 #include "math.h"
 
-#if VNDF_DOUBLE
-#define VNDF_IMPL_LEAST 2.22507385850720138309e-308  // 2^-1022, the least normal number
-#define VNDF_IMPL_ROOT_LEAST \
-    7.45834073120020674329e-155  // 2^-512: 1 over the root of what is no number any more
-#else
-#define VNDF_IMPL_LEAST 1.17549435082228750797e-38f  // 2^-126, the least normal number
-#define VNDF_IMPL_ROOT_LEAST \
-    5.42101086242752217004e-20f  // 2^-64: 1 over the root of what is no number any more
-#endif
-
 // alpha within [VNDF_ALPHA_MIN, VNDF_ALPHA_MAX]: below, a float direction cannot tell the lobe from a mirror; above, squares
 // would leave the range of numbers. NaN counts as the least.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
@@ -83,14 +73,6 @@ VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
     s.part = x * scale;
     s.exponent = VNDF_IMPL_EXPONENT_BIAS - (VNDF_AS_INT(scale) >> VNDF_IMPL_MANTISSA_BITS);
     return s;
-}
-
-// part 2^exponent for a part in [0, 2^126), at most the largest finite number.
-VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
-    VNDF_INT all = vndf_impl_within(x.exponent, 2 * VNDF_IMPL_EXPONENT_BIAS - 2), first = all >> 1;
-    return vndf_impl_power_beyond(x.part, all)
-               ? VNDF_REAL_MAX
-               : x.part * vndf_impl_exp2i(first) * vndf_impl_exp2i(all - first);
 }
 
 #endif

@@ -1,20 +1,20 @@
 // Seeded mistakes in beckmann_heitz_deon2014.h: rows of Mutant (mutants.h).
 {"2014: the edge mass by the tangent of another angle",
  "beckmann_heitz_deon2014.h",
- "VNDF_1_SQRT_PI * i.s * i.gaussian",
- "VNDF_1_SQRT_PI * i.c * i.gaussian",
+ "edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.gaussian",
+ "edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.gaussian * a",
  "vndf_beckmann_sample_wm_heitz_deon2014",
  {"pointwise, front", "KS of pivot 1"}},
     {"2014: the bare second number, not what choosing the sign left of it",
      "beckmann_heitz_deon2014.h",
-     "fold.difference = outer ? VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0)) : (high - low) * rcp;\n"
-     "    fold.product = outer ? u2 * (VNDF_R(1.0) - u2) : low * rcp * rcp * high;",
+     "fold.difference = outer ? VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0)) : high - low;\n"
+     "    fold.product = outer ? u2 * (VNDF_R(1.0) - u2) : low * high;",
      "fold.difference = VNDF_FMA(VNDF_R(-2.0), u2, VNDF_R(1.0));\n"
      "    fold.product = u2 * (VNDF_R(1.0) - u2);",
      "vndf_beckmann_sample_wm_heitz_deon2014",
      {"chi2 of the directions", "pointwise, front"}},
     {"2014: x kept by the share of -x",        "beckmann_heitz_deon2014.h",
-     "VNDF_REAL ratio = VNDF_R(0.5) *",        "VNDF_REAL ratio = VNDF_R(-0.5) *",
+     "VNDF_REAL keep = a - x, swap = a + x;", "VNDF_REAL keep = a + x, swap = a - x;",
      "vndf_beckmann_sample_wm_heitz_deon2014", {"KS of pivot 1", "pointwise, front"}},
     {"Beckmann 2014: nothing at the horizon",  "beckmann_heitz_deon2014.h",
      "vndf_impl_where(wo.z >= VNDF_R(0.0),",   "vndf_impl_where(wo.z > VNDF_R(0.0),",
