@@ -133,7 +133,7 @@ TEST_CASE("the exhaustion finds the one u at which a promise is broken, for each
 TEST_CASE("check --exhaustive exits with 1 for an offender, and prints an input that reproduces it") {
     if (runtime::choose_device().device.platform != "Portable Computing Language")
         VNDF_SKIP("the planted mistake goes in by a variable of PoCL's");
-    const std::string walk = "check --exhaustive --only vndf_ggx_sample_wm_walter2007 --minutes 0.001";
+    const std::string walk = "check --exhaustive --only vndf_ggx_sample_wm_heitz2018 --minutes 0.001";
     const Outcome sound = clvndf(walk);
     CHECK(sound.status == 0);
     CHECK_THAT(sound.out, ContainsSubstring("none bad"));
@@ -145,12 +145,12 @@ TEST_CASE("check --exhaustive exits with 1 for an offender, and prints an input 
     const std::string out = folder.read("out"), at = "\n  at ";
     CAPTURE(out);
     REQUIRE_THAT(
-        out, ContainsSubstring("FAILED vndf_ggx_sample_wm_walter2007: unit length") && ContainsSubstring(at));
+        out, ContainsSubstring("FAILED vndf_ggx_sample_wm_heitz2018: unit length") && ContainsSubstring(at));
     const std::size_t begin = out.find(at) + at.size();
     folder.write("row.csv", csv_of(out.substr(begin, out.find('\n', begin) - begin)));
     const auto is_unit = [&](const std::string& command) {
         CHECK(shell(folder,
-                    command + "eval vndf_ggx_sample_wm_walter2007 --hex --input row.csv >result 2>err") == 0);
+                    command + "eval vndf_ggx_sample_wm_heitz2018 --hex --input row.csv >result 2>err") == 0);
         double x = 0, y = 0, z = 0;
         const std::string result = folder.read("result");
         CHECK(std::sscanf(result.substr(result.find('\n')).c_str(), "%la,%la,%la", &x, &y, &z) == 3);
