@@ -29,7 +29,9 @@ static inline float3 lean_normal(struct lean_view v, float slope_x, float slope_
 
 static inline float3 lean_beckmann_sample_wm_heitz_deon2014(float3 wo, float2 alpha, float2 u) {
     struct lean_view v = lean_view_of(wo, alpha);
-    float a = v.c / v.s, erf_a = vndf_impl_erf(a), exp_a2 = vndf_impl_expx2(a);
+    // Normal incidence is the listing's: below the sine of 0.0001.
+    float a = v.c / max(v.s, 0.0001f), exp_a2 = vndf_impl_expx2(a);
+    float erf_a = fma(-vndf_impl_scaled_erfc_of(a).erfcx, exp_a2, 1.0f);
     float edge = 0.5f * VNDF_1_SQRT_PI * exp_a2;
     float lambda = fma(0.5f, erf_a - 1.0f, edge / a), cap = 1.0f - erf_a / (1.0f + lambda);
     // Sections: beyond the edge, the rest of the tail, the centre.
