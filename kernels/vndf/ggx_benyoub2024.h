@@ -41,7 +41,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     VNDF_REAL along_w = VNDF_FMA(n.x, cosine, n.y * sine), w = along_w / (VNDF_R(1.0) + vndf_impl_abs(n.z));
     VNDF_REAL ex = VNDF_FMA(w, n.x, -cosine), ey = VNDF_FMA(w, n.y, -sine),
               ez = n.z < VNDF_R(0.0) ? -along_w : along_w;
-    VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : VNDF_IMPL_NO_LENGTH;
+    VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : vndf_impl_no_length(v.z);
     VNDF_REAL vx = v.weight * VNDF_FMA(least, ex, kx), vy = v.weight * VNDF_FMA(least, ey, ky),
               vz = v.weight * VNDF_FMA(least, ez, kz);
     struct vndf_impl_cap_point p =

@@ -385,7 +385,7 @@ TEST_CASE("the command line takes what its help says and names what it does not 
 TEST_CASE("every command and every option of each is tried") {
     Generator generator(7);
     std::set<std::string> tried, all;
-    for (std::size_t i = 0; i < 1000; ++i) {
+    for (std::size_t i = 0; i < 4000; ++i) {
         const std::vector<std::string> words = random_line(generator).words;
         for (const std::string& word : words) tried.insert(words[0] + " " + word.substr(0, word.find('=')));
     }

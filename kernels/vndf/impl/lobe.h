@@ -26,8 +26,11 @@ struct vndf_impl_axis {
     int level;  // v is near the horizon: |z| < height / 4
 };
 
-// What stands for l = 0: nothing beside any number above the surface, and not lost below it, where scale is large.
-#define VNDF_IMPL_NO_LENGTH VNDF_R(8.67361737988403547e-19)  // 2^-60
+// What stands for l = 0: nothing beside r + z above the surface, but not so little that its square is subnormal; and not lost
+// below it, where scale is large: 2^-30, 2^-60.
+VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
+    return z >= VNDF_R(0.0) ? VNDF_R(9.31322574615478516e-10) : VNDF_R(8.67361737988403547e-19);
+}
 
 // A power of two near 1 / l, for l2 = l^2.
 VNDF_FN VNDF_REAL vndf_impl_rcp_root_scale(VNDF_REAL l2) {
@@ -71,7 +74,7 @@ VNDF_FN struct vndf_ggx_lobe vndf_impl_lobe_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) 
     VNDF_REAL l2 = VNDF_FMA(kx, kx, ky * ky);
     lobe.axis = vndf_impl_axis_of(l2, wo.z * VNDF_R(134217728.0));
     // Azimuth 0 for a v without one.
-    lobe.x = lobe.axis.weight * (l2 > VNDF_R(0.0) ? kx : VNDF_IMPL_NO_LENGTH);
+    lobe.x = lobe.axis.weight * (l2 > VNDF_R(0.0) ? kx : vndf_impl_no_length(wo.z));
     lobe.y = lobe.axis.weight * ky;
     return lobe;
 }

@@ -14,7 +14,7 @@
      "vndf_beckmann_sample_wm_heitz_deon2014",
      {"chi2 of the directions", "pointwise, front"}},
     {"2014: x kept by the share of -x",        "beckmann_heitz_deon2014.h",
-     "VNDF_REAL keep = a - x, swap = a + x;", "VNDF_REAL keep = a + x, swap = a - x;",
+     "VNDF_REAL keep = a - x, swap = a + x;",  "VNDF_REAL keep = a + x, swap = a - x;",
      "vndf_beckmann_sample_wm_heitz_deon2014", {"KS of pivot 1", "pointwise, front"}},
     {"Beckmann 2014: nothing at the horizon",  "beckmann_heitz_deon2014.h",
      "vndf_impl_where(wo.z >= VNDF_R(0.0),",   "vndf_impl_where(wo.z > VNDF_R(0.0),",

@@ -22,7 +22,8 @@
     {"alpha squared in the density alone",
      "ggx.h",
      "return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, alpha), wm);",
-     "return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, VNDF_MAKE2(alpha.x * alpha.x, alpha.y * alpha.y)), wm);",
+     "return vndf_impl_ggx_pdf_wm(vndf_ggx_lobe_of(wo, VNDF_MAKE2(alpha.x * alpha.x, alpha.y * alpha.y)), "
+     "wm);",
      "vndf_ggx_pdf_wm",
      {"pointwise, maximum"}},
     {"the slope's distribution: a small slope counts as negative",

@@ -33,7 +33,7 @@
      {"normal faces wo"}},
     {"world space: no tangent at wo = -n",
      "ggx_benyoub2024.h",
-     "VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : VNDF_IMPL_NO_LENGTH;",
+     "VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : vndf_impl_no_length(v.z);",
      "VNDF_REAL least = VNDF_R(0.0);",
      "vndf_ggx_sample_wm_benyoub2024",
      {"as documented at wo = -n"}},
