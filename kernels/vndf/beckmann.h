@@ -15,6 +15,8 @@
 #include "impl/beckmann_slopes.h"
 #include "impl/beckmann_terms.h"
 
+VNDF_BEGIN
+
 // The distribution of normals D.
 // Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 25 (m = wm), in the
 //     anisotropic vector form of Heitz, Understanding the Masking-Shadowing Function, 2014.
@@ -188,5 +190,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL
     VNDF_REAL x = -(vndf_impl_slope_base(i, edge) + vndf_impl_slope_of_mass(i, edge, u));
     return cos_theta > VNDF_R(-1.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
+
+VNDF_END
 
 #endif

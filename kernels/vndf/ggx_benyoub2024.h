@@ -10,6 +10,8 @@
 #include "impl/caps.h"
 #include "impl/exact.h"
 
+VNDF_BEGIN
+
 // n x w, each component with the error of one rounding.
 struct vndf_impl_vector {
     VNDF_REAL x, y, z;
@@ -120,5 +122,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_
     int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
+
+VNDF_END
 
 #endif

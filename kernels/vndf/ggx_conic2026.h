@@ -18,6 +18,8 @@
 #include "impl/cone.h"
 #include "impl/mirror.h"
 
+VNDF_BEGIN
+
 // --- What both forms share ---
 
 // A point of the unit disk: x = sqrt(u2) cos(2 pi u1), y alike, rest = 1 - u2.
@@ -429,5 +431,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_isotropic_with_pdf(VNDF_REAL3 wo
                                                                    VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_conic2026_isotropic(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/caps.h"
 
+VNDF_BEGIN
+
 // With P = 1 + z, Q = 1 - z of the stretched view direction, the reflection o on the cap has 1 - o.z = u2 P
 // and 1 + o.z = (1 - u2) P + Q, and the half vector divided by sqrt(P) is
 //     (sqrt(u2 ((1 - u2) P + Q)) e(phi) + sqrt(Q) e_v, (1 - u2) sqrt(P)):
@@ -42,5 +44,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023(VNDF_REAL3 wo, VNDF_REAL2 alpha,
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_dupuy2023_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

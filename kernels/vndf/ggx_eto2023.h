@@ -11,6 +11,8 @@
 #include "impl/caps.h"
 #include "impl/mirror.h"
 
+VNDF_BEGIN
+
 // Equations 5 and 6: 1 - k without a difference; k counts beside 1. The conservative alpha is at most 1.
 struct vndf_impl_bound {
     VNDF_REAL k, rest;
@@ -116,5 +118,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REA
         v.alpha_x, v.alpha_y, VNDF_SQRT(VNDF_FMA(wo.x, wo.x, wo.y * wo.y)), wo.z * wo.z, wo.z > VNDF_R(0.0));
     return vndf_impl_ggx_bounded_pdf(wo, wi, v, bound.rest, VNDF_FMA(bound.k, wo.z, v.r));
 }
+
+VNDF_END
 
 #endif

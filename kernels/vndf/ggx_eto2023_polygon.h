@@ -8,6 +8,8 @@
 
 #include "ggx_eto2023.h"
 
+VNDF_BEGIN
+
 // On the horizon the reflection has the height (1 / R - 1) z in stretched space, R the largest ratio
 // (X / alpha_x^2 + Y / alpha_y^2 + z^2) / (X + Y + z^2) of the polygon in which X = (wo.x + cos phi)^2 and
 // Y = (wo.y + sin phi)^2 lie. With y the axis of the smaller alpha and s = 1 + sin theta it is attained
@@ -87,5 +89,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_polygon(VNDF_REAL3 wo, VNDF_REAL3 wi, 
         v.alpha_x, v.alpha_y, wo.x, wo.y, sine, wo.z * wo.z, vndf_impl_cap_of(v), wo.z > VNDF_R(0.0));
     return vndf_impl_ggx_bounded_pdf(wo, wi, v, polygon.bound.rest, v.r * polygon.b);
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/caps.h"
 
+VNDF_BEGIN
+
 // P = 1 + V.z. The half disk that faces the viewer has probability 1 / P and angle pi u2 P; the tangent one
 // is entered from its far end, at the angle pi (1 - u2) P / V.z, so that neither forms u2 - 1 / P. Its height
 // V.z (sqrt(1 - u1 + b^2 S^2) - b S) is V.z (1 - u1) over the sum.
@@ -50,5 +52,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2017(VNDF_REAL3 wo, VNDF_REAL2 alpha,
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2017_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_heitz2017(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

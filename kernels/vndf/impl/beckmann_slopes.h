@@ -10,6 +10,8 @@
 
 #include "beckmann_terms.h"
 
+VNDF_BEGIN
+
 // The view direction, s > 0 or c > 0. Behind the surface s e^(-a^2) is left out of all terms: s is 1, sigma and the
 // exponents are relative to it.
 struct vndf_impl_incidence_slopes {
@@ -123,7 +125,7 @@ VNDF_FN struct vndf_impl_slope_mass vndf_impl_slope_mass_of(struct vndf_impl_inc
 
 // A slope within +-2^16 (double: 2^30): the cotangents that a cosine can have lie within, and beyond nothing of a Gaussian
 // is left.
-VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
+VNDF_FN VNDF_REAL vndf_impl_bounded_slope(VNDF_REAL x) {
     VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1073741824.0) : VNDF_R(65536.0);
     return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
@@ -137,7 +139,7 @@ VNDF_FN struct vndf_impl_seen_slope vndf_impl_beckmann_seen_slope(VNDF_REAL cos_
     struct vndf_impl_seen_slope s;
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     s.slopes = vndf_impl_beckmann_incidence(cos_theta, sine);
-    s.x = vndf_impl_slope(slope);
+    s.x = vndf_impl_bounded_slope(slope);
     s.visible = vndf_impl_visible_cosine(cos_theta, s.x);
     s.y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     return s;
@@ -266,5 +268,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckm
     VNDF_REAL t = vndf_impl_slope_base(i, edge) + offset;
     return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, y, f.alpha_x, f.alpha_y, weight, hidden);
 }
+
+VNDF_END
 
 #endif

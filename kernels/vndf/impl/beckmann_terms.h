@@ -5,6 +5,8 @@
 #include "exact.h"
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // A direction as the slopes of the stretched surface see it.
 struct vndf_impl_slopes {
     VNDF_REAL a;         // |cot theta|, at most 2^60 (double: 2^120)
@@ -115,5 +117,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
 VNDF_FN VNDF_REAL vndf_impl_beckmann_height(VNDF_REAL z) {
     return vndf_impl_max(z, VNDF_R(4.0) * VNDF_IMPL_ROOT_LEAST);
 }
+
+VNDF_END
 
 #endif

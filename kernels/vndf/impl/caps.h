@@ -4,6 +4,8 @@
 
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // P = 1 + cos and Q = 1 - cos of the polar angle of v, and their roots. The smaller of the two is formed from
 // its own root, l / t, so that neither is ever a difference.
 struct vndf_impl_cap {
@@ -55,5 +57,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_excess(VNDF_REAL u2, VNDF_REAL rest, VNDF_REAL b
     int at_rim = rest < VNDF_R(0.5);
     return VNDF_FMA(at_rim ? -rest : u2, b, at_rim ? z_b : -q);
 }
+
+VNDF_END
 
 #endif

@@ -11,6 +11,8 @@
 
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // The eigenvalue mu is the positive root of mu = s.z + s.x^2 / (mu + A_x) + s.y^2 / (mu + A_y), A_x = s.z alpha_x^2.
 struct vndf_impl_cone {
     VNDF_REAL sx, sy, sz, t;
@@ -103,5 +105,7 @@ VNDF_FN VNDF_REAL vndf_impl_twice_sigma_visible(struct vndf_impl_view v) {
 }
 
 #undef VNDF_IMPL_CONE_LEAST
+
+VNDF_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "math.h"
 
+VNDF_BEGIN
+
 #if VNDF_DOUBLE
 #define VNDF_IMPL_LEAST 2.22507385850720138309e-308  // 2^-1022, the least normal number
 #define VNDF_IMPL_ROOT_LEAST \
@@ -92,5 +94,7 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_power(struct vndf_impl_power x) {
                ? VNDF_REAL_MAX
                : x.part * vndf_impl_exp2i(first) * vndf_impl_exp2i(all - first);
 }
+
+VNDF_END
 
 #endif
