@@ -89,7 +89,11 @@
 #endif
 
 // VNDF_DOUBLE: 1 if VNDF_REAL is double. VNDF_POLICY: 0 strict, 1 builtin, 2 native.
-#define VNDF_DOUBLE (VNDF_CAT(VNDF_REAL_IS_, VNDF_REAL) - 1)
+#if VNDF_CAT(VNDF_REAL_IS_, VNDF_REAL) == VNDF_REAL_IS_double
+#define VNDF_DOUBLE 1
+#else
+#define VNDF_DOUBLE 0
+#endif
 #define VNDF_POLICY (VNDF_CAT(VNDF_MATH_IS_, VNDF_MATH) - 1)
 
 #if VNDF_DOUBLE && VNDF_POLICY == 2

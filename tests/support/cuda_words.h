@@ -21,7 +21,4 @@ __device__ float fmaf(float, float, float);
 __device__ double fma(double, double, double);
 __device__ float sqrtf(float);
 __device__ double sqrt(double);
-__device__ int __float_as_int(float);
-__device__ float __int_as_float(int);
-__device__ long long __double_as_longlong(double);
-__device__ double __longlong_as_double(long long);
+__device__ void* memcpy(void*, const void*, decltype(sizeof 0));

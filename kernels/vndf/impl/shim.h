@@ -16,7 +16,7 @@
 #endif
 // always_inline, not just inline: one call that stays a call keeps a CPU device from vectorising the kernel.
 #ifndef VNDF_FN
-#define VNDF_FN static inline __attribute__((always_inline))
+#define VNDF_FN static inline __attribute__((always_inline, __unused__))
 #endif
 #define VNDF_BEGIN
 #define VNDF_END
@@ -210,26 +210,14 @@ typedef struct vndf_double4 {
 
 VNDF_BEGIN
 VNDF_FN VNDF_INT vndf_impl_as_int(VNDF_REAL x) {
-#if !defined(__CUDA_ARCH__) && !defined(__HIP_DEVICE_COMPILE__)
     VNDF_INT i;
     memcpy(&i, &x, sizeof i);
     return i;
-#elif VNDF_DOUBLE
-    return __double_as_longlong(x);
-#else
-    return __float_as_int(x);
-#endif
 }
 VNDF_FN VNDF_REAL vndf_impl_as_real(VNDF_INT i) {
-#if !defined(__CUDA_ARCH__) && !defined(__HIP_DEVICE_COMPILE__)
     VNDF_REAL x;
     memcpy(&x, &i, sizeof x);
     return x;
-#elif VNDF_DOUBLE
-    return __longlong_as_double(i);
-#else
-    return __int_as_float(i);
-#endif
 }
 VNDF_END
 #define VNDF_AS_INT(x) vndf_impl_as_int(x)
