@@ -21,6 +21,13 @@ void drop_parentheses(Tokens& tokens) {
     }
 }
 
+// The two signs of -constant where the constant is negative.
+void drop_double_signs(Tokens& tokens) {
+    for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
+        if (is(tokens[i], "-") && is(tokens[i + 1], "-") && one_of(tokens[i - 1], {"(", ",", "=", "return", "?", ":"}))
+            tokens.erase(tokens.begin() + i, tokens.begin() + i + 2);
+}
+
 // 1 ? a : b, which the type decides, becomes a.
 void drop_choices(Tokens& tokens) {
     for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
@@ -192,6 +199,7 @@ std::string lay_out(const Declaration& declaration) {
     Tokens tokens = declaration.tokens;
     drop_parentheses(tokens);
     drop_choices(tokens);
+    drop_double_signs(tokens);
     return lay_out_comment(declaration.comments, 0) + Printer().print(tokens);
 }
 
