@@ -177,7 +177,7 @@ std::string selftest(const Options& options) {
         real, as_int, single ? "0x7f800000" : "0x7ff0000000000000", single ? "1e-3f" : "1e-3");
     for (std::size_t i = 0; i < functions.size(); ++i) text += table_of(*functions[i], i, options);
     text += is_opencl(options)                  ? "kernel void vndf_selftest(global int* wrong)"
-            : options.language == Language::cuda ? "static __global__ void vndf_selftest(int* wrong)"
+            : options.language == Language::cuda ? "extern \"C\" __global__ void vndf_selftest(int* wrong)"
                                                  : "VNDF_FN void vndf_selftest(int* wrong)";
     text += " {\n    int i, bits = 0, off = 0;\n";
     for (std::size_t i = 0; i < functions.size(); ++i) text += loop(*functions[i], i, options);

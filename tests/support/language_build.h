@@ -3,7 +3,22 @@
 #include <stddef.h>
 #include <string.h>
 
+#ifdef EMITTED  /* emit.sh: one emitted file in place of the headers */
+#include EMITTED
+#define VNDF_REAL float
+#define VNDF_REAL2 vndf_float2
+#define VNDF_REAL3 vndf_float3
+#define VNDF_REAL4 vndf_float4
+#ifdef __cplusplus
+#define VNDF_MAKE2(x, y) vndf_float2{x, y}
+#define VNDF_MAKE3(x, y, z) vndf_float3{x, y, z}
+#else
+#define VNDF_MAKE2(x, y) ((vndf_float2){x, y})
+#define VNDF_MAKE3(x, y, z) ((vndf_float3){x, y, z})
+#endif
+#else
 #include "../../kernels/vndf/vndf.h"
+#endif
 #include "../../kernels/batch/shapes.h"
 
 #define VNDF_HOST_IN(v) const VNDF_REAL* const in_##v = (const VNDF_REAL*)*inputs++;
