@@ -62,6 +62,8 @@ inline const std::map<std::string, Values>& values() {
         {"--junit", {{"-", "a.xml"}, {""}}},
         {"--report", {{"a", "a/b"}, {""}}},
         {"--compare", {{"a.json"}, {""}}},
+        {"--as", {{"opencl", "c", "c++", "cuda", "string"}, {"C", "metal", "", "opencl "}}},
+        {"--prefix", {{"vndf_", "a", "1"}, {""}}},
         {"eval --on", {{"device", "host", "reference"}, {"gpu", "", "hos"}}},
         {"check --on", {{"device", "host"}, {"reference", ""}}},
         {"--points", {{"1024", "16777216"}, no_count}},
