@@ -1,6 +1,7 @@
-// One sampler over arrays as renderers keep them: packed triples by vload3, float4 with a component to spare, structures, and
-// packed triples whose components are a distance apart that the compiler does not know. Each streaming and going over
-// BENCH_GROUPS groups again and again. BENCH_CALLEE: a sampler of (wo, alpha, u).
+// One sampler over arrays as renderers keep them: packed triples by vload3, float4 with a component to spare, structures; packed
+// triples whose components are a distance apart that the compiler does not know; and packed triples of which every second
+// component is multiplied by a 1 that it does not know, so that LLVM's SLP pass finds no two neighbours alike. Each streaming
+// and going over BENCH_GROUPS groups again and again. BENCH_CALLEE: a sampler of (wo, alpha, u).
 #include "../kernels/vndf/vndf.h"
 #include "../kernels/batch/batch.cl"
 
@@ -43,6 +44,15 @@ struct bench_output {
                                       (float2)(alpha[2 * i], alpha[2 * i + one]),                             \
                                       (float2)(u[2 * i], u[2 * i + one]));                                    \
         w[3 * i] = r.x, w[3 * i + one] = r.y, w[3 * i + two] = r.z;                                           \
+    }                                                                                                         \
+    __kernel void aos_one_##mode(__global const float *restrict wo, __global const float *restrict alpha,     \
+                                 __global const float *restrict u, __global float *restrict w,                \
+                                 const float one) {                                                           \
+        const size_t i = index;                                                                               \
+        const float3 r = BENCH_CALLEE((float3)(wo[3 * i], one * wo[3 * i + 1], wo[3 * i + 2]),                \
+                                      (float2)(alpha[2 * i], one * alpha[2 * i + 1]),                         \
+                                      (float2)(u[2 * i], one * u[2 * i + 1]));                                \
+        w[3 * i] = r.x, w[3 * i + 1] = one * r.y, w[3 * i + 2] = r.z;                                         \
     }
 
 BENCH_LAYOUTS(stream, BENCH_STREAM)

@@ -114,7 +114,7 @@ void add_listings(const Function& function, std::vector<Rung>& all) {
 
 void add_layouts(const Function& function, std::vector<Rung>& all) {
     if (!has_layouts(function)) return;
-    for (const char* layout : {"aos_vload3", "aos_float4", "aos_struct", "aos_stride"})
+    for (const char* layout : {"aos_vload3", "aos_float4", "aos_struct", "aos_stride", "aos_one"})
         all.push_back({.name = layout,
                        .modes = {Mode::stream, Mode::cached},
                        .callee = function.name,

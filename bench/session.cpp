@@ -236,11 +236,15 @@ cl::Kernel Session::layout_kernel(const Function& function, const Rung& rung, bo
         kernel.setArg(argument++, array("wo", 0, 3, rung.layout == "aos_float4" ? 4 : 3));
         if (!readme) kernel.setArg(argument++, array("alpha", 3, 5, 2));
         kernel.setArg(argument++, array("u", 5, 7, 2));
-        if (readme) kernel.setArg(argument++, cl_float2{{0.3f, 0.2f}});
+        if (readme) {
+            kernel.setArg(argument++, cl_float2{{0.3f, 0.2f}});
+            kernel.setArg(argument++, 1.0f);
+        }
     }
     kernel.setArg(argument++, output(0));
     if (readme)
         for (std::size_t i = 1; i < 3; ++i) kernel.setArg(argument++, output(i));
+    if (rung.layout == "aos_one") kernel.setArg(argument++, 1.0f);
     if (rung.layout == "aos_stride")
         for (const cl_uint distance : {1u, 2u}) kernel.setArg(argument++, distance);
     return kernel;

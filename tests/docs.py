@@ -158,7 +158,7 @@ def spread():
         yield f"`{mode}`", f"{100 * part:.1f} %"
 
 
-LAYOUTS = ("strict", "aos_struct", "aos_stride", "aos_float4", "aos_vload3")
+LAYOUTS = ("strict", "aos_one", "aos_struct", "aos_stride", "aos_float4", "aos_vload3")
 
 
 def layouts():
@@ -168,7 +168,7 @@ def layouts():
             for mode in ("stream", "cached"):
                 yield (f"`{sampler.removeprefix('vndf_')}`", mode, *(ns(run.ns(sampler, f"{form}/float", mode)) for form in LAYOUTS))
     readme = run.ns("vndf_ggx_sample_wm_dupuy2023", "readme/float")
-    yield "the README's example: cap, reflection, weight and density", "stream", "", "", "", "", ns(readme)
+    yield "the README's example: cap, reflection, weight and density", "stream", "", ns(readme), "", "", "", ""
 
 
 def flags():
@@ -264,7 +264,7 @@ TABLES = {
                                          ("strict", "lean", "published", "registers"))], instructions()),
     "price": lambda build: table(["sampler", "ns", "price", "median", "99 %", "maximum", "behind: 99 %", "maximum"], price()),
     "spread": lambda build: table(["mode", "two identical kernels differ by up to"], spread()),
-    "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "structures", "distance as argument",
+    "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "times one", "structures", "distance as argument",
                                     "`float4`", "`vload3`"], layouts()),
     "flags": lambda build: table(["sampler", *(name for _, name in bench()[0].FLAG_SETS)], flags()),
     "builds": lambda build: table(["program", "cold, s", "warm, s", "source, kB", "binary, kB"], builds()),

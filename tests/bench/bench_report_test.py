@@ -126,7 +126,7 @@ def check_committed():
     for rung in ("strict", "lean", "factored", "published", "builtin", "native"):
         for mode in ("stream", "compute", "cached", "cached_front"):
             assert f"{cap}/{rung}/float/{mode}" in best, (rung, mode)
-    for rung in ("aos_vload3", "aos_float4", "aos_struct", "aos_stride"):
+    for rung in ("aos_vload3", "aos_float4", "aos_struct", "aos_stride", "aos_one"):
         assert len([n for n in best if f"/{rung}/float/cached" in n]) == 3, rung
     for rung in ("luxcore", "fluctus", "cycles", "hydracore"):
         assert len([n for n in best if f"/{rung}/float/cached" in n]) >= 15, rung

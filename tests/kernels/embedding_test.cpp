@@ -74,9 +74,10 @@ TEST_CASE("the OpenCL example builds from named headers and gives the bits of th
     kernel.setArg(0, wo_buffer);
     kernel.setArg(1, u_buffer);
     kernel.setArg(2, alpha);
-    kernel.setArg(3, wi_buffer);
-    kernel.setArg(4, weight_buffer);
-    kernel.setArg(5, pdf_buffer);
+    kernel.setArg(3, 1.0f);
+    kernel.setArg(4, wi_buffer);
+    kernel.setArg(5, weight_buffer);
+    kernel.setArg(6, pdf_buffer);
     queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(n), cl::NDRange(64));
 
     std::vector<float> wi(3 * n), weight(n), pdf(n);
