@@ -64,7 +64,9 @@ void run(const Emit& e) {
 void add_emit(CLI::App& app, Common& common) {
     CLI::App* command = app.add_subcommand("emit", "write one source file with the functions named and all they use");
     const auto e = std::make_shared<Emit>();
-    command->add_option("name", e->names, "functions, as clvndf list names them")->required();
+    // CLI11 takes "---" for a word.
+    const CLI::Validator no_option([](const std::string& name) { return name[0] == '-' ? "unknown option" : ""; }, "", "");
+    command->add_option("name", e->names, "functions, as clvndf list names them")->required()->check(no_option);
     command->add_option("-o,--output", e->output, "file to write, or -")->capture_default_str();
     command
         ->add_option("--as", e->as, "language: opencl, c, c++, cuda, or string (OpenCL C in a C string)")

@@ -56,7 +56,7 @@ std::vector<Declarator> declarators(const Tokens& tokens, Statement statement) {
     if (is(tokens[i - 1], "return") || tokens[i - 1].kind != TokenKind::identifier ||
         tokens[i].kind != TokenKind::identifier)
         return all;
-    if (is(tokens[i - 1], "long")) ++i;
+    if (is(tokens[i], "long")) ++i;  // long long
     while (i < statement.end) {
         while (tokens[i].kind != TokenKind::identifier) ++i;
         const std::size_t end = find_outside(tokens, i, {",", ";"});

@@ -322,7 +322,9 @@ void spoil(Generator& generator, const Command& command, const std::vector<Optio
         line.wrong = unmet->name;
         groups.push_back(words_of(generator, *unmet, unmet->values.good[0]));
     } else {
-        line.wrong = generator.pick(junk);
+        do {
+            line.wrong = generator.pick(junk);
+        } while (command.takes_names && line.wrong[0] != '-');
         // Of words without a dash the last is one too many.
         const std::size_t place = line.wrong[0] == '-' ? generator.below(groups.size() + 1) : groups.size();
         groups.insert(groups.begin() + static_cast<std::ptrdiff_t>(place), {line.wrong});
@@ -385,7 +387,7 @@ TEST_CASE("the command line takes what its help says and names what it does not 
 TEST_CASE("every command and every option of each is tried") {
     Generator generator(7);
     std::set<std::string> tried, all;
-    for (std::size_t i = 0; i < 1000; ++i) {
+    for (std::size_t i = 0; i < 3000; ++i) {
         const std::vector<std::string> words = random_line(generator).words;
         for (const std::string& word : words) tried.insert(words[0] + " " + word.substr(0, word.find('=')));
     }
