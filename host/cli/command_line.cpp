@@ -117,7 +117,8 @@ std::string misfit(CLI::App& app, const std::vector<std::string>& words) {
                 if (candidate->get_name() == word) command = candidate;
             if (!command) return fmt::format("unknown command '{}'; {}", word, command_names(app));
             for (const CLI::Option* option : command->get_options())
-                if (option->get_positional()) free_places += static_cast<std::size_t>(option->get_items_expected_max());
+                if (option->get_positional())
+                    free_places += static_cast<std::size_t>(option->get_items_expected_max());
         } else if (free_places-- == 0) {
             return fmt::format("'{}' is one word too many; {}", word, allowed(app, command));
         }

@@ -39,14 +39,17 @@ emit::Options options_of(const Emit& e) {
     runtime::require_policy(options.math, options.real);
     const bool opencl = e.as == "opencl" || e.as == "string";
     if (!opencl && options.math == runtime::Math::native)
-        throw InputError(fmt::format("--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", e.as));
+        throw InputError(fmt::format(
+            "--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", e.as));
     emit::require_prefix(e.prefix);
     options.prefix = e.prefix;
     options.selftest = e.selftest;
-    options.stamp = fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
-    for (const auto& [option, value, usual] :
-         {std::array{"--as", e.as.c_str(), "opencl"}, {"--math", e.math.c_str(), "strict"},
-          {"--real", e.real.c_str(), "float"}, {"--prefix", e.prefix.c_str(), "vndf_"}})
+    options.stamp =
+        fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
+    for (const auto& [option, value, usual] : {std::array{"--as", e.as.c_str(), "opencl"},
+                                               {"--math", e.math.c_str(), "strict"},
+                                               {"--real", e.real.c_str(), "float"},
+                                               {"--prefix", e.prefix.c_str(), "vndf_"}})
         if (std::string_view(value) != usual) options.stamp += fmt::format(" {} {}", option, value);
     if (e.selftest) options.stamp += " --selftest";
     return options;
@@ -62,14 +65,17 @@ void run(const Emit& e) {
 }  // namespace
 
 void add_emit(CLI::App& app, Common& common) {
-    CLI::App* command = app.add_subcommand("emit", "write one source file with the functions named and all they use");
+    CLI::App* command =
+        app.add_subcommand("emit", "write one source file with the functions named and all they use");
     const auto e = std::make_shared<Emit>();
     // CLI11 takes "---" for a word.
-    const CLI::Validator no_option([](const std::string& name) { return name[0] == '-' ? "unknown option" : ""; }, "", "");
-    command->add_option("name", e->names, "functions, as clvndf list names them")->required()->check(no_option);
+    const CLI::Validator no_option(
+        [](const std::string& name) { return name[0] == '-' ? "unknown option" : ""; }, "", "");
+    command->add_option("name", e->names, "functions, as clvndf list names them")
+        ->required()
+        ->check(no_option);
     command->add_option("-o,--output", e->output, "file to write, or -")->capture_default_str();
-    command
-        ->add_option("--as", e->as, "language: opencl, c, c++, cuda, or string (OpenCL C in a C string)")
+    command->add_option("--as", e->as, "language: opencl, c, c++, cuda, or string (OpenCL C in a C string)")
         ->check(CLI::IsMember(languages()))
         ->capture_default_str();
     add_switches(*command, e->math, e->real);

@@ -38,10 +38,17 @@ std::vector<std::string> macros(const Options& options) {
                                     fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN"};
     switch (options.language) {
         case Language::opencl:
-        case Language::string: all.push_back("__OPENCL_C_VERSION__=120"); break;
-        case Language::c: break;
-        case Language::cuda: all.push_back("__CUDACC__=1"); [[fallthrough]];
-        case Language::cpp: all.push_back("__cplusplus=201103L"); break;
+        case Language::string:
+            all.push_back("__OPENCL_C_VERSION__=120");
+            break;
+        case Language::c:
+            break;
+        case Language::cuda:
+            all.push_back("__CUDACC__=1");
+            [[fallthrough]];
+        case Language::cpp:
+            all.push_back("__cplusplus=201103L");
+            break;
     }
     return all;
 }
@@ -60,9 +67,12 @@ std::string commented(std::string_view text) {
 std::string introduction(const Options& options) {
     std::string out = commented(options.stamp) + "//\n" + commented(licence_files().at(0).text) + "//\n";
     out += commented(
-        "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from the\n"
-        "surface, in a right-handed frame with z along its normal. alpha: parameters of the distribution, no\n"
-        "perceptual roughness. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions are\n"
+        "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from "
+        "the\n"
+        "surface, in a right-handed frame with z along its normal. alpha: parameters of the distribution, "
+        "no\n"
+        "perceptual roughness. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions "
+        "are\n"
         "declared, may be set before.\n");
     return out;
 }
@@ -78,18 +88,21 @@ std::string prologue(const Options& options, bool copies_bits) {
         case Language::string:
             out += "#pragma OPENCL FP_CONTRACT OFF\n";
             if (options.real == runtime::Real::f64)
-                out += "#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120\n"
-                       "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#endif\n";
+                out +=
+                    "#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120\n"
+                    "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#endif\n";
             return out + function("static inline __attribute__((always_inline, __unused__))");
         case Language::cuda:
             return out + function("static inline __host__ __device__ __attribute__((__unused__))");
         case Language::c:
         case Language::cpp:
             out += copies_bits ? "#include <math.h>\n#include <string.h>\n\n" : "#include <math.h>\n\n";
-            out += "#if defined(__FAST_MATH__) && !defined(VNDF_ALLOW_FAST_MATH)\n"
-                   "#error \"-ffast-math changes results; compile without it, or define VNDF_ALLOW_FAST_MATH\"\n#endif\n"
-                   "#if !defined(VNDF_FN) && defined(__GNUC__)\n"
-                   "#define VNDF_FN static inline __attribute__((__unused__))\n#endif\n";
+            out +=
+                "#if defined(__FAST_MATH__) && !defined(VNDF_ALLOW_FAST_MATH)\n"
+                "#error \"-ffast-math changes results; compile without it, or define "
+                "VNDF_ALLOW_FAST_MATH\"\n#endif\n"
+                "#if !defined(VNDF_FN) && defined(__GNUC__)\n"
+                "#define VNDF_FN static inline __attribute__((__unused__))\n#endif\n";
             return out + function("static inline");
     }
     return out;
@@ -128,24 +141,28 @@ std::string resolve(const std::string& name) {
         if (full.find(name) != full.npos) found.push_back(full);
     if (found.size() == 1) return found[0];
     if (found.empty())
-        throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)", name,
-                                     fmt::join(nearest_names(name), ", ")));
+        throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)",
+                                     name, fmt::join(nearest_names(name), ", ")));
     const std::size_t count = found.size();
     found.resize(std::min<std::size_t>(count, 3));
-    throw InputError(fmt::format("'{}' is ambiguous: {} functions have it in their names, among them {} (see clvndf list)",
-                                 name, count, fmt::join(found, ", ")));
+    throw InputError(
+        fmt::format("'{}' is ambiguous: {} functions have it in their names, among them {} (see clvndf list)",
+                    name, count, fmt::join(found, ", ")));
 }
 
 void require_prefix(const std::string& prefix) {
     static const std::regex name("[A-Za-z_][A-Za-z0-9_]*");
     if (prefix.size() > 64 || !std::regex_match(prefix, name))
-        throw InputError(fmt::format("--prefix '{}': no beginning of a name (letters, digits and _, at most 64)", prefix));
+        throw InputError(
+            fmt::format("--prefix '{}': no beginning of a name (letters, digits and _, at most 64)", prefix));
     // What OpenCL and C keep for themselves, and begins like names of ours with that prefix.
     static const std::regex reserved(
-        "_.*|.*__.*|(as|convert|native|half|get|async|atomic|read|write|sub_group|work_group|intel|amd|cl|gl|to|is|str|mem|wcs)_"
+        "_.*|.*__.*|(as|convert|native|half|get|async|atomic|read|write|sub_group|work_group|intel|amd|cl|gl|"
+        "to|is|str|mem|wcs)_"
         "|cl|gl|vload|vstore|E|is|to|str|mem|wcs");
     if (std::regex_match(prefix, reserved))
-        throw InputError(fmt::format("--prefix '{}': names that begin so belong to C, C++ or OpenCL", prefix));
+        throw InputError(
+            fmt::format("--prefix '{}': names that begin so belong to C, C++ or OpenCL", prefix));
 }
 
 std::string emit(const Options& options) {
@@ -158,7 +175,8 @@ std::string emit(const Options& options) {
         if (names.contains(declaration.name)) files.insert(declaration.file);
     std::string body;
     for (const Declaration& declaration : chosen) {
-        if (files.erase(declaration.file)) body += lay_out_comment(file_comment(tokens, declaration.file), 0) + '\n';
+        if (files.erase(declaration.file))
+            body += lay_out_comment(file_comment(tokens, declaration.file), 0) + '\n';
         body += lay_out(declaration) + '\n';
     }
     if (options.selftest) body += selftest(options) + '\n';

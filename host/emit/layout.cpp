@@ -24,7 +24,8 @@ void drop_parentheses(Tokens& tokens) {
 // The two signs of -constant where the constant is negative.
 void drop_double_signs(Tokens& tokens) {
     for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
-        if (is(tokens[i], "-") && is(tokens[i + 1], "-") && one_of(tokens[i - 1], {"(", ",", "=", "return", "?", ":"}))
+        if (is(tokens[i], "-") && is(tokens[i + 1], "-") &&
+            one_of(tokens[i - 1], {"(", ",", "=", "return", "?", ":"}))
             tokens.erase(tokens.begin() + i, tokens.begin() + i + 2);
 }
 
@@ -105,8 +106,9 @@ class Printer {
 
     // Whether the next token is one of two operands' operator.
     bool operand_before() const {
-        return before_ && (before_->kind == TokenKind::number || before_->text == ")" || before_->text == "]" ||
-                           (before_->kind == TokenKind::identifier && before_->text != "return"));
+        return before_ &&
+               (before_->kind == TokenKind::number || before_->text == ")" || before_->text == "]" ||
+                (before_->kind == TokenKind::identifier && before_->text != "return"));
     }
 
     void remember(const Token& token) {
@@ -118,10 +120,12 @@ class Printer {
     bool spaced(const Token& token, bool block) const {
         const std::string &last = before_->text, &next = token.text;
         if (block) return true;
-        if (unary_ || one_of(*before_, {"(", "[", "{", "."}) || one_of(token, {")", "]", "}", ",", ";", "."})) return false;
+        if (unary_ || one_of(*before_, {"(", "[", "{", "."}) || one_of(token, {")", "]", "}", ",", ";", "."}))
+            return false;
         if (next == "{" || next == "[") return last == "=";
         if (next == "(") return !(before_->kind == TokenKind::identifier && last != "return") && last != ")";
-        if (last == ")" && (token.kind == TokenKind::identifier || token.kind == TokenKind::number)) return false;
+        if (last == ")" && (token.kind == TokenKind::identifier || token.kind == TokenKind::number))
+            return false;
         return true;
     }
 
@@ -176,7 +180,9 @@ class Printer {
 std::string lay_out_comment(const std::vector<std::string>& lines, std::size_t indent) {
     const std::size_t limit = line_length - indent;
     std::string out, rest;  // what the line before had too much
-    const auto margin = [](const std::string& line) { return std::min(line.find_first_not_of("/ "), line.size()); };
+    const auto margin = [](const std::string& line) {
+        return std::min(line.find_first_not_of("/ "), line.size());
+    };
     for (std::size_t i = 0; i < lines.size() || !rest.empty(); ++i) {
         std::string line = i < lines.size() ? lines[i] : "";
         if (!rest.empty()) {
@@ -185,7 +191,8 @@ std::string lay_out_comment(const std::vector<std::string>& lines, std::size_t i
             line = goes_on ? rest + line.substr(margin(line) - 1) : rest;
             rest.clear();
         }
-        if (const std::size_t at = line.rfind(' ', limit); line.size() > limit && at != line.npos && at > margin(line)) {
+        if (const std::size_t at = line.rfind(' ', limit);
+            line.size() > limit && at != line.npos && at > margin(line)) {
             rest = line.substr(0, margin(line)) + line.substr(at + 1);
             line.resize(at);
         }

@@ -24,6 +24,9 @@ void append(std::vector<Token>& tokens, const WaveToken& token) {
     const token_id id = token;
     const std::string text(token.get_value().c_str());
     const std::string file(token.get_position().get_file().c_str());
+    const auto has = [&](token_category category) {  // IS_CATEGORY, which clang++ warns of
+        return ((unsigned(id) ^ unsigned(category)) & TokenTypeMask) == 0;
+    };
     const auto add = [&](TokenKind kind, std::string value) {
         tokens.push_back({kind, std::move(value), file, token.get_position().get_line()});
     };
@@ -32,11 +35,11 @@ void append(std::vector<Token>& tokens, const WaveToken& token) {
         add(TokenKind::newline, "\n");
     } else if (id == T_NEWLINE || id == T_GENERATEDNEWLINE) {
         add(TokenKind::newline, "\n");
-    } else if (id == T_IDENTIFIER || IS_CATEGORY(id, KeywordTokenType)) {
+    } else if (id == T_IDENTIFIER || has(KeywordTokenType)) {
         add(TokenKind::identifier, text);
     } else if (!text.empty() && std::isdigit(static_cast<unsigned char>(text[0]))) {
         add(TokenKind::number, text);
-    } else if (!IS_CATEGORY(id, WhiteSpaceTokenType) && id != T_EOF && id != T_PLACEHOLDER) {
+    } else if (!has(WhiteSpaceTokenType) && id != T_EOF && id != T_PLACEHOLDER) {
         add(TokenKind::punctuation, text);
     }
 }

@@ -7,8 +7,12 @@
 namespace vndf::emit {
 namespace {
 
-bool is_struct(const Declaration& declaration) { return is(declaration.tokens[0], "struct"); }
-bool is_function(const Declaration& declaration) { return is(declaration.tokens[0], "VNDF_FN"); }
+bool is_struct(const Declaration& declaration) {
+    return is(declaration.tokens[0], "struct");
+}
+bool is_function(const Declaration& declaration) {
+    return is(declaration.tokens[0], "VNDF_FN");
+}
 
 std::size_t position(const Tokens& tokens, std::string_view text) {
     return std::find_if(tokens.begin(), tokens.end(), [&](const Token& token) { return is(token, text); }) -
@@ -24,7 +28,9 @@ std::vector<Statement> statements(const Tokens& tokens) {
     std::vector<Statement> all;
     std::size_t i = position(tokens, "{") + 1;
     while (i < tokens.size()) {
-        while (i < tokens.size() && (tokens[i].kind == TokenKind::comment || tokens[i].kind == TokenKind::newline)) ++i;
+        while (i < tokens.size() &&
+               (tokens[i].kind == TokenKind::comment || tokens[i].kind == TokenKind::newline))
+            ++i;
         const std::size_t end = find_outside(tokens, i, {";"});
         if (end >= tokens.size() || !is(tokens[end], ";")) break;
         all.push_back({i, end});
@@ -38,7 +44,8 @@ void erase(Tokens& tokens, Statement statement) {
     std::size_t begin = statement.begin, end = statement.end + 1;
     if (end < tokens.size() && tokens[end].kind == TokenKind::comment) ++end;
     while (tokens[begin - 1].kind == TokenKind::newline || tokens[begin - 1].kind == TokenKind::comment) {
-        if (tokens[begin - 1].kind == TokenKind::comment && tokens[begin - 2].kind != TokenKind::newline) break;
+        if (tokens[begin - 1].kind == TokenKind::comment && tokens[begin - 2].kind != TokenKind::newline)
+            break;
         --begin;
     }
     tokens.erase(tokens.begin() + begin, tokens.begin() + end);
@@ -89,7 +96,8 @@ struct Stores {
 
 Stores stores(const Tokens& tokens, Statement statement) {
     Stores found{{}, statement.begin};
-    for (std::size_t& i = found.value; i + 3 < statement.end && is(tokens[i + 1], ".") && is(tokens[i + 3], "="); i += 4)
+    for (std::size_t& i = found.value;
+         i + 3 < statement.end && is(tokens[i + 1], ".") && is(tokens[i + 3], "="); i += 4)
         found.members.push_back(tokens[i + 2].text);
     return found;
 }
@@ -108,8 +116,9 @@ std::set<std::string> members_read(const std::vector<Declaration>& all) {
             if (!is_function(function)) continue;
             for (const Statement& statement : statements(function.tokens)) {
                 const Stores s = stores(function.tokens, statement);
-                const bool idle = !s.members.empty() && std::none_of(s.members.begin(), s.members.end(),
-                                                                     [&](auto& m) { return read.contains(m); });
+                const bool idle =
+                    !s.members.empty() && std::none_of(s.members.begin(), s.members.end(),
+                                                       [&](auto& m) { return read.contains(m); });
                 if (!idle) add_members_read(function.tokens, s.value, statement.end, read);
             }
         }
@@ -133,7 +142,8 @@ bool drop_stores(Tokens& tokens, const std::set<std::string>& read) {
         }
         for (std::size_t m = s.members.size(); m-- > 0;)
             if (!read.contains(s.members[m]))
-                tokens.erase(tokens.begin() + all[k].begin + 4 * m, tokens.begin() + all[k].begin + 4 * m + 4);
+                tokens.erase(tokens.begin() + all[k].begin + 4 * m,
+                             tokens.begin() + all[k].begin + 4 * m + 4);
     }
     return changed;
 }

@@ -104,11 +104,11 @@ std::string table_of(const Function& function, std::size_t index, const Options&
     const auto results = options.real == Real::f32 ? answers<float>(function, table, options)
                                                    : answers<double>(function, table, options);
     columns.insert(columns.end(), results.begin(), results.end());
-    const std::string_view words = is_opencl(options)                  ? "constant"
+    const std::string_view words = is_opencl(options)                   ? "constant"
                                    : options.language == Language::cuda ? "static __constant__ const"
                                                                         : "static const volatile";
-    std::string text = fmt::format("// {}; results\n{} {} vndf_selftest_{}[] = {{\n", fmt::join(function.inputs, ", "), words,
-                                   to_string(options.real), index);
+    std::string text = fmt::format("// {}; results\n{} {} vndf_selftest_{}[] = {{\n",
+                                   fmt::join(function.inputs, ", "), words, to_string(options.real), index);
     for (std::size_t row = 0; row < rows; ++row) {
         std::string line = "   ";
         for (const auto& column : columns) {
@@ -129,7 +129,8 @@ std::string comparisons(const Function& function, const std::string& judge) {
     std::string text;
     for (std::size_t i = 0; i < function.outputs.size(); ++i) {
         const std::string result = function.outputs.size() == 1 ? "r" : std::string("r.") + members[i];
-        text += fmt::format("{}{}({}, a[{}])", i == 0 ? "" : " + ", judge, result, function.inputs.size() + i);
+        text +=
+            fmt::format("{}{}({}, a[{}])", i == 0 ? "" : " + ", judge, result, function.inputs.size() + i);
     }
     return text;
 }
@@ -138,11 +139,12 @@ std::string loop(const Function& function, std::size_t index, const Options& opt
     const std::size_t outputs = function.outputs.size();
     std::string type(to_string(options.real));
     if (outputs > 1) type = fmt::format("{}{}{}", is_opencl(options) ? "" : "vndf_", type, outputs);
-    const std::string_view words = is_opencl(options)                  ? "constant "
+    const std::string_view words = is_opencl(options)                   ? "constant "
                                    : options.language == Language::cuda ? "const "
                                                                         : "const volatile ";
     return fmt::format(
-        "    for (i = 0; i < {}; ++i) {{\n        {}{}* a = vndf_selftest_{} + {} * i;\n        {} r = {}({});\n"
+        "    for (i = 0; i < {}; ++i) {{\n        {}{}* a = vndf_selftest_{} + {} * i;\n        {} r = "
+        "{}({});\n"
         "        bits += {};\n        off += {};\n    }}\n",
         rows, words, to_string(options.real), index, function.inputs.size() + outputs, type, function.name,
         arguments(function, options), comparisons(function, "vndf_selftest_bits"),
@@ -168,15 +170,19 @@ std::string selftest(const Options& options) {
     const std::string_view real = to_string(options.real);
     const std::string as_int = is_opencl(options) ? (single ? "as_int" : "as_long") : "vndf_impl_as_int";
     std::string text =
-        "// Known answers. vndf_selftest, by one work-item, counts results with other bits in wrong[0], which flags that change\n"
-        "// arithmetic allow, and in wrong[1] those that are not finite or off by more than 1e-3 max(1, |result|).\n";
-    text += fmt::format("VNDF_FN int vndf_selftest_bits({0} a, {0} b) {{\n    return {1}(a) != {1}(b);\n}}\n", real, as_int);
+        "// Known answers. vndf_selftest, by one work-item, counts results with other bits in wrong[0], "
+        "which flags that change\n"
+        "// arithmetic allow, and in wrong[1] those that are not finite or off by more than 1e-3 max(1, "
+        "|result|).\n";
+    text += fmt::format("VNDF_FN int vndf_selftest_bits({0} a, {0} b) {{\n    return {1}(a) != {1}(b);\n}}\n",
+                        real, as_int);
     text += fmt::format(
-        "VNDF_FN int vndf_selftest_off({0} a, {0} b) {{\n    {0} size = b < 0 ? -b : b, error = a < b ? b - a : a - b;\n"
+        "VNDF_FN int vndf_selftest_off({0} a, {0} b) {{\n    {0} size = b < 0 ? -b : b, error = a < b ? b - "
+        "a : a - b;\n"
         "    return ({1}(a) & {2}) == {2} || error > {3} * (size > 1 ? size : 1);\n}}\n",
         real, as_int, single ? "0x7f800000" : "0x7ff0000000000000", single ? "1e-3f" : "1e-3");
     for (std::size_t i = 0; i < functions.size(); ++i) text += table_of(*functions[i], i, options);
-    text += is_opencl(options)                  ? "kernel void vndf_selftest(global int* wrong)"
+    text += is_opencl(options)                   ? "kernel void vndf_selftest(global int* wrong)"
             : options.language == Language::cuda ? "extern \"C\" __global__ void vndf_selftest(int* wrong)"
                                                  : "VNDF_FN void vndf_selftest(int* wrong)";
     text += " {\n    int i, bits = 0, off = 0;\n";

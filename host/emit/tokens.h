@@ -17,8 +17,12 @@ inline bool is(const Token& token, std::string_view text) {
 inline bool one_of(const Token& token, const std::set<std::string_view>& words) {
     return token.kind != TokenKind::comment && words.contains(token.text);
 }
-inline bool opens(const Token& token) { return one_of(token, {"(", "[", "{"}); }
-inline bool closes(const Token& token) { return one_of(token, {")", "]", "}"}); }
+inline bool opens(const Token& token) {
+    return one_of(token, {"(", "[", "{"});
+}
+inline bool closes(const Token& token) {
+    return one_of(token, {")", "]", "}"});
+}
 
 // The end of the bracket that opens at i.
 inline std::size_t closing(const Tokens& tokens, std::size_t i) {

@@ -76,7 +76,8 @@ TEST_CASE("every command runs to its end with every option") {
         "check --only vndf_reflect --quick --digest --on host",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
         "emit --help",
-        "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ --selftest",
+        "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
+        "--selftest",
         "policies --help",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
@@ -113,7 +114,8 @@ TEST_CASE("every command runs to its end with every option") {
         INFO(option << " is reached by none of the lines above: add it");
         CHECK(reached.contains(option));
     }
-    for (const std::string file : {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h"})
+    for (const std::string file :
+         {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h"})
         CHECK_FALSE(folder.read(file).empty());
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));
 }
@@ -197,8 +199,9 @@ TEST_CASE("emit refuses what it cannot write, and writes the same for the same r
     }
     const Folder folder;
     CHECK(shell(folder, "\"$clvndf\" emit nosuch -o a.cl 2>err; [ ! -e a.cl ]") == 0);
-    CHECK(shell(folder, "\"$clvndf\" emit vndf_ggx_g1 --seed 5 -o a.cl && \"$clvndf\" emit ggx_g1 -o b.cl && "
-                        "cmp a.cl b.cl") == 0);
+    CHECK(shell(folder,
+                "\"$clvndf\" emit vndf_ggx_g1 --seed 5 -o a.cl && \"$clvndf\" emit ggx_g1 -o b.cl && "
+                "cmp a.cl b.cl") == 0);
 }
 
 TEST_CASE("a number outside its range is refused with a range that can be read") {

@@ -14,13 +14,15 @@ int main(int argc, char** argv) {
     const char* source = text.c_str();
     cl_platform_id platform;
     cl_device_id device;
-    if (clGetPlatformIDs(1, &platform, nullptr) || clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, nullptr)) {
+    if (clGetPlatformIDs(1, &platform, nullptr) ||
+        clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, nullptr)) {
         std::puts("no OpenCL device");
         return 2;
     }
     cl_context context = clCreateContext(nullptr, 1, &device, nullptr, nullptr, nullptr);
     cl_program program = clCreateProgramWithSource(context, 1, &source, nullptr, nullptr);
-    if (clBuildProgram(program, 1, &device, argc > 2 ? argv[2] : "-cl-fp32-correctly-rounded-divide-sqrt", nullptr, nullptr)) {
+    if (clBuildProgram(program, 1, &device, argc > 2 ? argv[2] : "-cl-fp32-correctly-rounded-divide-sqrt",
+                       nullptr, nullptr)) {
         char log[4096] = "";
         clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, sizeof log - 1, log, nullptr);
         std::puts(log);

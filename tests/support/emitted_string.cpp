@@ -12,4 +12,6 @@ template <std::size_t n>
 void print(const char* const (&lines)[n]) {
     for (const char* line : lines) std::fputs(line, stdout);
 }
-int main() { print(vndf_source); }
+int main() {
+    print(vndf_source);
+}
