@@ -157,7 +157,8 @@ void require_prefix(const std::string& prefix) {
             fmt::format("--prefix '{}': no beginning of a name (letters, digits and _, at most 64)", prefix));
     // What OpenCL and C keep for themselves, and begins like names of ours with that prefix.
     static const std::regex reserved(
-        "_.*|.*__.*|(as|convert|native|half|get|async|atomic|read|write|sub_group|work_group|intel|amd|cl|gl|"
+        "_.*|.*__.*|(as|convert|make|native|half|get|async|atomic|read|write|sub_group|work_group|intel|amd|"
+        "cl|gl|"
         "to|is|str|mem|wcs)_"
         "|cl|gl|vload|vstore|E|is|to|str|mem|wcs");
     if (std::regex_match(prefix, reserved))

@@ -189,6 +189,7 @@ TEST_CASE("emit refuses what it cannot write, and writes the same for the same r
         {"emit vndf_reflect --prefix 'a b'", "--prefix 'a b': no beginning of a name"},
         {"emit vndf_reflect --prefix _", "belong to C, C++ or OpenCL"},
         {"emit vndf_reflect --prefix native_", "belong to C, C++ or OpenCL"},
+        {"emit vndf_reflect --prefix make_", "belong to C, C++ or OpenCL"},
         {"emit vndf_reflect --prefix ''", "--prefix: its value is empty"},
         {"emit vndf_ggx_conic2026_lobe --selftest", "--selftest: vndf_ggx_conic2026_lobe returns no numbers"},
         {"emit vndf_reflect --output nowhere/a.cl", "nowhere/a.cl"},

@@ -3,15 +3,21 @@
 #include <stddef.h>
 #include <string.h>
 
-#ifdef EMITTED  /* emit.sh: one emitted file in place of the headers */
+#ifdef EMITTED /* emit.sh: one emitted file in place of the headers */
 #include EMITTED
 #define VNDF_REAL float
 #define VNDF_REAL2 vndf_float2
 #define VNDF_REAL3 vndf_float3
 #define VNDF_REAL4 vndf_float4
 #ifdef __cplusplus
-#define VNDF_MAKE2(x, y) vndf_float2{x, y}
-#define VNDF_MAKE3(x, y, z) vndf_float3{x, y, z}
+#define VNDF_MAKE2(x, y) \
+    vndf_float2 {        \
+        x, y             \
+    }
+#define VNDF_MAKE3(x, y, z) \
+    vndf_float3 {           \
+        x, y, z             \
+    }
 #else
 #define VNDF_MAKE2(x, y) ((vndf_float2){x, y})
 #define VNDF_MAKE3(x, y, z) ((vndf_float3){x, y, z})
@@ -28,10 +34,10 @@
 #define VNDF_FUNCTION(name, arguments, result_)                                           \
     static void batch_##name(const void* const* inputs, void* const* outputs, size_t n) { \
         size_t i;                                                                         \
-        VNDF_SCALARS_##arguments(VNDF_HOST_IN) VNDF_RESULTS_##result_(VNDF_HOST_OUT)      \
-        for (i = 0; i < n; ++i) {                                                         \
-            VNDF_SCALARS_##arguments(VNDF_HOST_LOAD)                                      \
-            const VNDF_TYPE_##result_ result = name(VNDF_CALL_##arguments);               \
+        VNDF_SCALARS_##arguments(VNDF_HOST_IN)                                            \
+            VNDF_RESULTS_##result_(VNDF_HOST_OUT) for (i = 0; i < n; ++i) {               \
+            VNDF_SCALARS_##arguments(VNDF_HOST_LOAD) const VNDF_TYPE_##result_ result =   \
+                name(VNDF_CALL_##arguments);                                              \
             VNDF_RESULTS_##result_(VNDF_HOST_STORE)                                       \
         }                                                                                 \
     }
