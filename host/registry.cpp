@@ -22,6 +22,11 @@ constexpr struct {
     operator Support() const { return Support::upper; }
 } UPPER;
 
+// Of a call whose first argument is set up on the spot, by what.
+std::string lobe_of(std::string_view call) {
+    return call.starts_with("vndf_") ? std::string(call.substr(0, call.find('('))) : std::string();
+}
+
 Function with_pdf(Function sampler) {
     sampler.name += "_with_pdf";
     sampler.outputs.push_back("pdf");
@@ -32,6 +37,8 @@ Function with_pdf(Function sampler) {
 std::vector<Function> read_functions() {
     std::vector<Function> all;
 #define VNDF_NAME(scalar) #scalar,
+#define VNDF_TEXT(...) #__VA_ARGS__
+#define VNDF_TEXT_OF(...) VNDF_TEXT(__VA_ARGS__)
 #define VNDF_RESULT_NAME(scalar, member) #scalar,
 #define VNDF_TUPLE(...) \
     { __VA_ARGS__ }
@@ -39,6 +46,7 @@ std::vector<Function> read_functions() {
     Function f;                                                           \
     f.name = f.plain = #name_, f.source = source_;                        \
     f.arguments = #arguments_, f.signature = VNDF_ARGUMENTS_##arguments_; \
+    f.lobe = lobe_of(VNDF_TEXT_OF(VNDF_CALL_##arguments_));               \
     f.result = #result_, f.kind = kind_, f.ndf = ndf_;                    \
     f.inputs = {VNDF_SCALARS_##arguments_(VNDF_NAME)};                    \
     f.outputs = {VNDF_RESULTS_##result_(VNDF_RESULT_NAME)};

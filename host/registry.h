@@ -38,6 +38,7 @@ struct Function {
     std::string plain;      // without it
     std::string arguments;  // the registry's token, e.g. "WO_ALPHA_U"
     std::string signature;  // "wo, alpha, u"
+    std::string lobe;       // of one that takes a lobe, what sets it up
     std::string result;     // "WM", "WI", "VALUE" or "U"
     std::string source;
     Ndf ndf = Ndf::any;

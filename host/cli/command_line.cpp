@@ -17,29 +17,38 @@
 
 namespace vndf::cli {
 
-void Target::add_to(CLI::App& command) {
-    add_device(command, device);
+void add_switches(CLI::App& command, std::string& math, std::string& real) {
     command
-        .add_option("--math", math_name,
-                    "policy of elementary functions: strict, builtin or native (float only)")
+        .add_option("--math", math, "policy of elementary functions: strict, builtin or native (float only)")
         ->check(CLI::IsMember({"strict", "builtin", "native"}))
         ->capture_default_str();
-    command.add_option("--real", real_name, "real type: float or double")
+    command.add_option("--real", real, "real type: float or double")
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
 }
 
-runtime::Math Target::math() const {
+runtime::Math math_named(const std::string& name) {
     using runtime::Math;
-    const Math math = math_name == "strict"    ? Math::strict
-                      : math_name == "builtin" ? Math::builtin
-                                               : Math::native;
+    return name == "strict" ? Math::strict : name == "builtin" ? Math::builtin : Math::native;
+}
+
+runtime::Real real_named(const std::string& name) {
+    return name == "float" ? runtime::Real::f32 : runtime::Real::f64;
+}
+
+void Target::add_to(CLI::App& command) {
+    add_device(command, device);
+    add_switches(command, math_name, real_name);
+}
+
+runtime::Math Target::math() const {
+    const runtime::Math math = math_named(math_name);
     runtime::require_policy(math, real());
     return math;
 }
 
 runtime::Real Target::real() const {
-    return real_name == "float" ? runtime::Real::f32 : runtime::Real::f64;
+    return real_named(real_name);
 }
 
 runtime::Device Target::choose(const Common& common) const {
@@ -107,7 +116,9 @@ std::string misfit(CLI::App& app, const std::vector<std::string>& words) {
             for (const CLI::App* candidate : commands_of(app))
                 if (candidate->get_name() == word) command = candidate;
             if (!command) return fmt::format("unknown command '{}'; {}", word, command_names(app));
-            for (const CLI::Option* option : command->get_options()) free_places += option->get_positional();
+            for (const CLI::Option* option : command->get_options())
+                if (option->get_positional())
+                    free_places += static_cast<std::size_t>(option->get_items_expected_max());
         } else if (free_places-- == 0) {
             return fmt::format("'{}' is one word too many; {}", word, allowed(app, command));
         }
@@ -151,6 +162,7 @@ CommandLine::CommandLine()
     add_eval(app_, common_);
     add_check(app_, common_);
     add_policies(app_, common_);
+    add_emit(app_, common_);
 #ifdef CLVNDF_BENCH
     add_bench(app_, common_);
 #endif

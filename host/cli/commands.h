@@ -20,6 +20,11 @@ struct Common {
     int exit_status = 0;  // set by a command that ran to its end with a verdict: 1 for a failed check
 };
 
+// --math and --real.
+void add_switches(CLI::App& command, std::string& math, std::string& real);
+runtime::Math math_named(const std::string& name);
+runtime::Real real_named(const std::string& name);
+
 // Options of the commands that run kernels.
 struct Target {
     std::string device, math_name = "strict", real_name = "float";
@@ -36,6 +41,7 @@ void add_list(CLI::App& app, Common& common);
 void add_eval(CLI::App& app, Common& common);
 void add_check(CLI::App& app, Common& common);
 void add_policies(CLI::App& app, Common& common);
+void add_emit(CLI::App& app, Common& common);
 void add_bench(CLI::App& app, Common& common);  // defined where Google Benchmark is there
 
 }  // namespace vndf::cli

@@ -154,13 +154,13 @@ class Assembler {
 
     // The embedded file that an include line names, or nothing.
     std::string resolve(const std::string& path, const std::string& line) const {
-        static const std::regex include(R"re(^\s*#\s*include\s*["<]([^">]+)[">])re");
+        static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
         std::smatch match;
         if (!std::regex_search(line, match, include)) return {};
-        const std::filesystem::path name(match[1].str());
+        const std::filesystem::path name(match[2].str());
         const std::string beside =
             (std::filesystem::path(path).parent_path() / name).lexically_normal().generic_string();
-        if (files_.count(beside)) return beside;
+        if (match[1] == "\"" && files_.count(beside)) return beside;
         return files_.count(name.generic_string()) ? name.generic_string() : std::string();
     }
 

@@ -30,7 +30,7 @@ struct Assembly {
     std::vector<Substitution> substitutions;
 };
 
-// The file at `path` with every include resolved (relative to the including file, or from the root), once for
+// The file at `path` with every include resolved (in quotes relative to the including file, or from the root), once for
 // a file with an include guard. #line directives keep the compiler's messages at "kernels/vndf/ggx.h:41", so
 // that a program needs no include path. Includes that no embedded file answers stay as they are. Throws
 // DeviceError if a path is unknown, or if a substitution's text is not found exactly once.

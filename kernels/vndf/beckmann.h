@@ -15,6 +15,8 @@
 #include "impl/beckmann_slopes.h"
 #include "impl/beckmann_terms.h"
 
+VNDF_BEGIN
+
 // The distribution of normals D.
 // Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 25 (m = wm), in the
 //     anisotropic vector form of Heitz, Understanding the Masking-Shadowing Function, 2014.
@@ -191,5 +193,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL
         vndf_impl_slope_of_mass(vndf_impl_beckmann_angle(cos_theta), vndf_impl_u(u1));
     return cos_theta > VNDF_R(-1.0) ? vndf_impl_finite(r.x) : -VNDF_REAL_MAX;
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "beckmann.h"
 #include "impl/beckmann_slopes.h"
 
+VNDF_BEGIN
+
 // The slope x with its distance y from the edge, and of the second number u2, used again where it chose the sign of x:
 // 1 - 2 u2 and u2 (1 - u2).
 struct vndf_impl_folded_slope {
@@ -94,5 +96,7 @@ VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo
                                                                    VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_beckmann_heitz_deon2014(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

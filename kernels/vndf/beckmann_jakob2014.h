@@ -9,6 +9,8 @@
 #include "beckmann.h"
 #include "impl/beckmann_slopes.h"
 
+VNDF_BEGIN
+
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
     struct vndf_impl_visible_slope r = vndf_impl_slope_of_mass(f.slopes, vndf_impl_u(u.x));
@@ -32,5 +34,7 @@ VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 a
 VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_jakob2014_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_beckmann_jakob2014(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "beckmann.h"
 #include "impl/beckmann_slopes.h"
 
+VNDF_BEGIN
+
 // tan(theta) = sqrt(-log(1 - u1)) before the stretch; e^(-tan(theta)^2) is 1 - u1.
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, VNDF_REAL2 u) {
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
@@ -35,5 +37,7 @@ VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_walter2007(VNDF_REAL2 alpha, VNDF_REA
 VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_walter2007_with_pdf(VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_beckmann_walter2007(alpha, u));
 }
+
+VNDF_END
 
 #endif

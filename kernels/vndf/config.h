@@ -9,12 +9,19 @@
 //              native: native_* where OpenCL has one (float only; OpenCL only), never promised
 //   VNDF_SOFTWARE_FMA  0 (default); 1 for OpenCL devices that do not report CL_FP_FMA: libclc's emulated fma gives
 //              -0 for (-0) + 0, which costs `strict` the sign of a zero
-//   VNDF_ALLOW_FAST_MATH  0 (default): in C++, compiler options that change results are errors; 1: they are not, and
+//   VNDF_ALLOW_FAST_MATH  0 (default): in C and C++, compiler options that change results are errors; 1: they are not, and
 //              neither bits nor bounds are promised
-// For C++ users with vector types of their own (members x, y, z, w; brace initialisation):
-//   VNDF_REAL2, VNDF_REAL3, VNDF_REAL4
+//   VNDF_FN    how functions are declared. Default: static, inlined always in OpenCL C, for __host__ and __device__ in CUDA and
+//              HIP. Set it where a sampler is called at many places and kernels take minutes to build, to `static
+//              __attribute__((noinline))` (PoCL then does not vectorise the kernel; one wrapper that is not inlined, called
+//              from all places, does as well), or where a compiler wants words of its own
+// For vector types of your own in C, C++, CUDA and HIP, each alone or together:
+//   VNDF_REAL2, VNDF_REAL3, VNDF_REAL4   the type, with members x, y, z and made by braces: glm, Imath, linalg
+//   VNDF_MAKE2(x, y), VNDF_MAKE3(x, y, z), VNDF_MAKE4(x, y, z, w)   makes one otherwise
+//   VNDF_GET2(v, i), VNDF_GET3(v, i)   component i of a type without such members, v[i] for Eigen and std::array (C++):
+//              functions then return what converts to it
 //
-// Compiler options. In C++ compile `strict` with -ffp-contract=off: a compiler that fuses a * b + c changes bits. Fast
+// Compiler options. In C and C++ compile `strict` with -ffp-contract=off: a compiler that fuses a * b + c changes bits. Fast
 // math and arithmetic wider than the type (-mfpmath=387; 32-bit x86 needs -msse2 -mfpmath=sse) are errors where the
 // compiler tells of them. It tells of nothing, and only you can take care, in the case of
 //   contraction, with every compiler but MSVC (/fp:contract);
@@ -82,7 +89,11 @@
 #endif
 
 // VNDF_DOUBLE: 1 if VNDF_REAL is double. VNDF_POLICY: 0 strict, 1 builtin, 2 native.
-#define VNDF_DOUBLE (VNDF_CAT(VNDF_REAL_IS_, VNDF_REAL) - 1)
+#if VNDF_CAT(VNDF_REAL_IS_, VNDF_REAL) == VNDF_REAL_IS_double
+#define VNDF_DOUBLE 1
+#else
+#define VNDF_DOUBLE 0
+#endif
 #define VNDF_POLICY (VNDF_CAT(VNDF_MATH_IS_, VNDF_MATH) - 1)
 
 #if VNDF_DOUBLE && VNDF_POLICY == 2

@@ -5,6 +5,8 @@
 #include "impl/exact.h"
 #include "impl/range.h"
 
+VNDF_BEGIN
+
 // The mirror direction of wo about wm.
 // Source: Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007, Equation 39 (i = wo,
 //     o = the result).
@@ -91,5 +93,7 @@ VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL 
     VNDF_REAL jacobian = vndf_impl_bounded_product(ratio * cosine, ratio);
     return largest > VNDF_R(0.0) ? vndf_impl_finite(jacobian) : VNDF_REAL_MAX;
 }
+
+VNDF_END
 
 #endif

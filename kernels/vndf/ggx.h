@@ -13,6 +13,8 @@
 #include "impl/slopes.h"
 #include "impl/stretch.h"
 
+VNDF_BEGIN
+
 // The distribution of normals D.
 // Source: Walter et al. 2007, Equation 33 (m = wm), in the anisotropic vector form of Heitz, Understanding
 //     the Masking-Shadowing Function, 2014.
@@ -251,5 +253,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
     VNDF_REAL x = slope.sin_psi / (slope.cos_psi > VNDF_R(0.0) ? slope.cos_psi : VNDF_R(1.0));
     return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
+
+VNDF_END
 
 #endif

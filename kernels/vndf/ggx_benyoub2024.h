@@ -7,9 +7,10 @@
 #define VNDF_GGX_BENYOUB2024_H
 
 #include "ggx.h"
-#include "impl/caps.h"
 #include "impl/exact.h"
 #include "impl/lobe.h"
+
+VNDF_BEGIN
 
 // n x w, each component with the error of one rounding.
 VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
@@ -120,5 +121,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_
     int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
+
+VNDF_END
 
 #endif

@@ -18,6 +18,8 @@
 #include "impl/cone.h"
 #include "impl/mirror.h"
 
+VNDF_BEGIN
+
 // --- What both forms share ---
 
 // A point (X, Y) = sqrt(u2) (cosine, sine) of the unit disk by its parts; rest = 1 - u2. The root is left to where it
@@ -475,5 +477,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_conic2026_isotropic_with_pdf(VNDF_REAL3 wo
                                                                    VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_conic2026_isotropic(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

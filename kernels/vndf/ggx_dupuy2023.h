@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/lobe.h"
 
+VNDF_BEGIN
+
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_cap_normal(lobe, vndf_impl_cap_half(lobe, u));
 }
@@ -38,5 +40,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_dupuy2023_lobe(struct vndf_ggx_lobe lobe, 
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_dupuy2023_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_dupuy2023(lobe, u));
 }
+
+VNDF_END
 
 #endif

@@ -11,6 +11,8 @@
 #include "impl/lobe.h"
 #include "impl/mirror.h"
 
+VNDF_BEGIN
+
 // A cap above -k cos theta, by its gap 1 - k: gap z and (1 + k) z in a lobe's numbers, and height - gap z, which stands for 1 +
 // k cos theta.
 struct vndf_impl_bound {
@@ -143,5 +145,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REA
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     return vndf_impl_ggx_bounded_pdf(lobe, wi, vndf_impl_ggx_bound(lobe));
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 
 #include "ggx_eto2023.h"
 
+VNDF_BEGIN
+
 // On the horizon the reflection has the height (1 / R - 1) z in stretched space, R the largest ratio
 // (X / alpha_x^2 + Y / alpha_y^2 + z^2) / (X + Y + z^2) of the polygon in which X = (wo.x + cos phi)^2 and
 // Y = (wo.y + sin phi)^2 lie. With y the axis of the smaller alpha and s = 1 + sin theta it is attained
@@ -101,5 +103,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_polygon(VNDF_REAL3 wo, VNDF_REAL3 wi, 
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_eto2023_polygon_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     return vndf_impl_ggx_bounded_pdf(lobe, wi, vndf_impl_ggx_polygon(lobe));
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/lobe.h"
 
+VNDF_BEGIN
+
 // P = 1 + V.z. The half disk that faces the viewer has probability 1 / P and angle pi u2 P; the tangent one
 // is entered from its far end, at the angle pi (1 - u2) P / V.z, so that neither forms u2 - 1 / P. Its height
 // V.z (sqrt(1 - u1 + b^2 S^2) - b S) is V.z (1 - u1) over the sum.
@@ -64,5 +66,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2017_lobe(struct vndf_ggx_lobe lobe, 
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2017_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_heitz2017(lobe, u));
 }
+
+VNDF_END
 
 #endif

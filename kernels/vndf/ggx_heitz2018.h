@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/lobe.h"
 
+VNDF_BEGIN
+
 // The point (t1, b) of the unit disc becomes (t1, t) of the cross section, t = (Q R + P b) / 2 with
 // R = sqrt(1 - t1^2), and the normal t1 w1 + t w2 + t_i v. Where the listing subtracts: R - |b| is
 // (1 - u2) / (R + |b|); t for b near -R is P (R + b) / 2 - z R; t_i^2 factors into P (R - b) (P (R + b) + 2 Q
@@ -72,5 +74,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2018_lobe(struct vndf_ggx_lobe lobe, 
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2018_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_heitz2018(lobe, u));
 }
+
+VNDF_END
 
 #endif

@@ -9,6 +9,8 @@
 #include "impl/caps.h"
 #include "impl/slopes.h"
 
+VNDF_BEGIN
+
 // What both forms share: the azimuth of the stretched view direction, (1, 0) if it has none, and the slope in
 // the plane of incidence.
 struct vndf_impl_incidence {
@@ -107,5 +109,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_exact_with_pdf(VNDF_REAL3 w
                                                                     VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014_exact(wo, alpha, u));
 }
+
+VNDF_END
 
 #endif

@@ -8,6 +8,8 @@
 #include "ggx.h"
 #include "impl/stretch.h"
 
+VNDF_BEGIN
+
 // tan(theta) = sqrt(u1 / (1 - u1)) before the stretch: the normal (sqrt(u1) e(phi), sqrt(1 - u1)).
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_walter2007(VNDF_REAL2 alpha, VNDF_REAL2 u) {
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
@@ -29,5 +31,7 @@ VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_walter2007(VNDF_REAL2 alpha, VNDF_REAL2 u)
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_walter2007_with_pdf(VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction_pdf(vndf_impl_ggx_walter2007(alpha, u));
 }
+
+VNDF_END
 
 #endif

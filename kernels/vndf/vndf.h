@@ -2,8 +2,9 @@
 // Heitz & d'Eon 2014, Jakob 2014, Heitz 2017, Heitz 2018, Dupuy & Benyoub 2023, Eto & Tokuyoshi 2023 and Benyoub 2024,
 // and of this package.
 //
-// One header set for OpenCL C 1.2 (and later) and C++20. Include this file, or only the sampler you need;
-// each header includes what it uses. Nothing here has state, takes a pointer or calls out: copy the folder.
+// One header set for OpenCL C 1.2 to 3.0, C++ for OpenCL, C99, C++11, CUDA, HIP, and later ones of each. Include this file, or
+// only the sampler you need; each header includes what it uses. Nothing here has state, takes a pointer or calls out: copy
+// the folder, or have `clvndf emit` write one file with the functions that you name.
 // Every name begins with vndf_ or VNDF_.
 //
 // Conventions

@@ -75,6 +75,9 @@ TEST_CASE("every command runs to its end with every option") {
         "--json check.json --junit check.xml",
         "check --only vndf_reflect --quick --digest --on host",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
+        "emit --help",
+        "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
+        "--selftest",
         "policies --help",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
@@ -111,7 +114,8 @@ TEST_CASE("every command runs to its end with every option") {
         INFO(option << " is reached by none of the lines above: add it");
         CHECK(reached.contains(option));
     }
-    for (const std::string file : {"device.csv", "host.csv", "check.json", "check.xml", "policies.json"})
+    for (const std::string file :
+         {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h"})
         CHECK_FALSE(folder.read(file).empty());
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));
 }
@@ -170,6 +174,35 @@ TEST_CASE("a selection of nothing is refused, with what there is to select") {
         CAPTURE(arguments);
         require_refusal(clvndf(arguments), said);
     }
+}
+
+TEST_CASE("emit refuses what it cannot write, and writes the same for the same request") {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"emit", "name is required"},
+        {"emit nosuch", "unknown function 'nosuch'; the nearest names are vndf_"},
+        {"emit vndf_reflect nosuch", "unknown function 'nosuch'"},
+        {"emit dupuy2023", "'dupuy2023' is ambiguous: 4 functions have it in their names"},
+        {"emit vndf_reflect --as metal", "--as"},
+        {"emit vndf_reflect --as c --math native", "--math native --as c: native is OpenCL's alone"},
+        {"emit vndf_reflect --math native --real double", "native"},
+        {"emit vndf_reflect --prefix 1a", "--prefix '1a': no beginning of a name"},
+        {"emit vndf_reflect --prefix 'a b'", "--prefix 'a b': no beginning of a name"},
+        {"emit vndf_reflect --prefix _", "belong to C, C++ or OpenCL"},
+        {"emit vndf_reflect --prefix native_", "belong to C, C++ or OpenCL"},
+        {"emit vndf_reflect --prefix make_", "belong to C, C++ or OpenCL"},
+        {"emit vndf_reflect --prefix ''", "--prefix: its value is empty"},
+        {"emit vndf_ggx_conic2026_lobe --selftest", "--selftest: vndf_ggx_conic2026_lobe returns no numbers"},
+        {"emit vndf_reflect --output nowhere/a.cl", "nowhere/a.cl"},
+        {"emit vndf_reflect --as c --as c++", "--as is given twice"}};
+    for (const auto& [arguments, said] : cases) {
+        CAPTURE(arguments);
+        require_refusal(clvndf(arguments), said);
+    }
+    const Folder folder;
+    CHECK(shell(folder, "\"$clvndf\" emit nosuch -o a.cl 2>err; [ ! -e a.cl ]") == 0);
+    CHECK(shell(folder,
+                "\"$clvndf\" emit vndf_ggx_g1 --seed 5 -o a.cl && \"$clvndf\" emit ggx_g1 -o b.cl && "
+                "cmp a.cl b.cl") == 0);
 }
 
 TEST_CASE("a number outside its range is refused with a range that can be read") {
@@ -269,6 +302,7 @@ TEST_CASE("a command that cannot write to the standard output fails in one line"
         "devices --help",
         "list",
         "list --json",
+        "emit vndf_reflect",
         "eval vndf_reflect --on host --input in",
         "check --help",
         "check --only vndf_reflect --quick --points 1024",

@@ -20,7 +20,8 @@ function(build_and_run source build)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-build_and_run(${example} ${WORK}/installed -D CMAKE_PREFIX_PATH=${WORK}/prefix)
+build_and_run(${example} ${WORK}/installed -D CMAKE_PREFIX_PATH=${WORK}/prefix -D CMAKE_CXX_STANDARD=11
+              -D CMAKE_CXX_EXTENSIONS=OFF)
 set(installed ${output})
 
 file(READ ${example}/CMakeLists.txt text)

@@ -34,7 +34,7 @@ judge() {
     fi
 }
 
-printf '#include <cfloat>\n#include <cmath>\n#include <cstdint>\n#include <cstring>\n' >"$work/base.cpp"
+printf '#include <float.h>\n#include <math.h>\n#include <string.h>\n' >"$work/base.cpp"
 macros "$work/base.cpp" >"$work/base.macros"
 symbols "$work/base.cpp" >"$work/base.symbols"
 for real in float double; do

@@ -60,9 +60,9 @@ changes() {
 cpp() {
     values "$@"
     refused "OpenCL devices only" "$@" -DVNDF_MATH=native
-    mode=-fsyntax-only
-    refused "all three" "$@" -DVNDF_REAL3=mine
-    mode=-E
+    for macro in 'VNDF_MAKE2(x,y)=mine' 'VNDF_GET2(v,i)=v[i]'; do refused "define VNDF_REAL2, too" "$@" "-D$macro"; done
+    for macro in 'VNDF_MAKE3(x,y,z)=mine' 'VNDF_GET3(v,i)=v[i]'; do refused "define VNDF_REAL3, too" "$@" "-D$macro"; done
+    refused "define VNDF_REAL4, too" "$@" '-DVNDF_MAKE4(x,y,z,w)=mine'
     accepted "$@" -DVNDF_ALLOW_FAST_MATH=1
     for fast in -ffast-math -Ofast; do changes -ffast-math "$@" $fast; done
     changes -ffinite-math-only "$@" -ffinite-math-only
@@ -100,6 +100,8 @@ if compiler=$(first clang clang-19 clang-16 clang-15 clang-14); then
     values "$@"
     accepted "$@" -DVNDF_MATH=native
     accepted "$@" -cl-fast-relaxed-math  # measured by clvndf policies
+    set -- "$compiler" -x c -std=c99 -w "$work/test.cpp"
+    refused "need C++" "$@" -DVNDF_REAL3=mine '-DVNDF_GET3(v,i)=v[i]'
 fi
 [ $tried -gt 0 ] || { echo "no compiler" && exit 77; }
 exit $status

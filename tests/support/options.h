@@ -24,7 +24,8 @@ struct Option {
 
 struct Command {
     std::string name;
-    bool takes_name;  // a word beside the options
+    bool takes_name;   // a word beside the options
+    bool takes_names;  // any number of them
     std::vector<Option> options;
 };
 
@@ -62,6 +63,8 @@ inline const std::map<std::string, Values>& values() {
         {"--junit", {{"-", "a.xml"}, {""}}},
         {"--report", {{"a", "a/b"}, {""}}},
         {"--compare", {{"a.json"}, {""}}},
+        {"--as", {{"opencl", "c", "c++", "cuda", "string"}, {"C", "metal", "", "opencl "}}},
+        {"--prefix", {{"vndf_", "a", "1"}, {""}}},
         {"eval --on", {{"device", "host", "reference"}, {"gpu", "", "hos"}}},
         {"check --on", {{"device", "host"}, {"reference", ""}}},
         {"--points", {{"1024", "16777216"}, no_count}},
@@ -106,7 +109,10 @@ inline Commands commands() {
         const auto all = app->get_options();
         const bool takes_name =
             std::any_of(all.begin(), all.end(), [](const CLI::Option* o) { return o->get_positional(); });
-        result.commands.push_back({app->get_name(), takes_name, options_of(*app)});
+        const bool takes_names = std::any_of(all.begin(), all.end(), [](const CLI::Option* o) {
+            return o->get_positional() && o->get_items_expected_max() > 1;
+        });
+        result.commands.push_back({app->get_name(), takes_name, takes_names, options_of(*app)});
     }
     return result;
 }

@@ -12,6 +12,8 @@
 #include "beckmann_start.h"
 #include "beckmann_terms.h"
 
+VNDF_BEGIN
+
 // The view direction. `steep` is at most 2^53 (double: 2^501): beyond, every density is more than a number.
 #if VNDF_DOUBLE
 #define VNDF_IMPL_COT_LIMIT 1152921504606846976.0     // 2^60
@@ -160,7 +162,7 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_of_mass(struct vndf_impl_
 
 // A slope within +-2^16 (double: 2^30): the cotangents that a cosine can have lie within, and beyond nothing of a Gaussian
 // is left.
-VNDF_FN VNDF_REAL vndf_impl_slope(VNDF_REAL x) {
+VNDF_FN VNDF_REAL vndf_impl_bounded_slope(VNDF_REAL x) {
     VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1073741824.0) : VNDF_R(65536.0);
     return vndf_impl_min(vndf_impl_max(x, -limit), limit);
 }
@@ -181,7 +183,7 @@ VNDF_FN struct vndf_impl_seen_slope vndf_impl_beckmann_seen_slope(VNDF_REAL cos_
     struct vndf_impl_seen_slope s;
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     s.slopes = vndf_impl_beckmann_angle(cos_theta);
-    s.x = vndf_impl_slope(slope);
+    s.x = vndf_impl_bounded_slope(slope);
     s.visible = vndf_impl_visible_cosine(cos_theta, s.x);
     VNDF_REAL y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     s.y = sine > VNDF_R(0.0) ? y : s.slopes.a;
@@ -259,5 +261,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckm
 
 #undef VNDF_IMPL_STEEP_LIMIT
 #undef VNDF_IMPL_COT_LIMIT
+
+VNDF_END
 
 #endif

@@ -5,6 +5,8 @@
 #include "exact.h"
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // |cot theta| of a stretched direction, at most 2^60 (double: 2^120): beyond, a Gaussian is cut nowhere, or seen at a cosine
 // that rounds to 0; l = 0 is normal incidence.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_cot(VNDF_REAL l, VNDF_REAL z) {
@@ -114,5 +116,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
 VNDF_FN VNDF_REAL vndf_impl_beckmann_height(VNDF_REAL z) {
     return vndf_impl_max(z, VNDF_R(4.0) * VNDF_IMPL_ROOT_LEAST);
 }
+
+VNDF_END
 
 #endif

@@ -12,6 +12,8 @@
 
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // With A_x = z alpha_x^2, the eigenvalue mu is the positive root of mu = z + x^2 / (mu + A_x) + y^2 / (mu + A_y).
 // m1 and m2 are those of the two by two matrix diag(A_x, A_y) + w w^T, w = (x / sqrt(1 + A_x), y / sqrt(1 + A_y)).
 struct vndf_impl_cone {
@@ -125,5 +127,7 @@ VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_cone_view v, VN
 VNDF_FN VNDF_REAL vndf_impl_cone_area(struct vndf_impl_cone c, VNDF_REAL scale) {
     return VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale) / (c.whole * c.unit);
 }
+
+VNDF_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "shim.h"
 
+VNDF_BEGIN
+
 // a b - c d without cancellation error: at most 1.5 ulp (Kahan).
 VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c, VNDF_REAL d) {
     VNDF_REAL cd = c * d;
@@ -62,5 +64,7 @@ VNDF_FN VNDF_REAL vndf_impl_visible_cosine(VNDF_REAL cos_theta, VNDF_REAL x) {
         sine > VNDF_R(0.0) ? VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error) / sine : VNDF_R(0.0);
     return VNDF_FMA(-x, sine, cos_theta) - x * sine_error;
 }
+
+VNDF_END
 
 #endif

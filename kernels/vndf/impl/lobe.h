@@ -16,6 +16,8 @@
 
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // theta of a v by its parts times 2^27: squares keep full precision down to v.x = 1e-27, and the largest, (2^27 1e6)^2, is far
 // from overflow.
 struct vndf_impl_axis {
@@ -167,5 +169,7 @@ VNDF_FN struct vndf_impl_polar vndf_impl_polar_of(struct vndf_ggx_lobe v) {
     polar.sqrt_p = v.axis.height * VNDF_SQRT(rcp);
     return polar;
 }
+
+VNDF_END
 
 #endif

@@ -1,7 +1,7 @@
 // Elementary functions of the three math policies (see config.h): scalar, branch-free, always inlined.
 //
 // strict uses only correctly rounded operations and the polynomials of polynomials.h. builtin and native call
-// OpenCL's functions (C++: the standard library's) where there is one; functions without a counterpart (erfcx, erfinv,
+// OpenCL's functions (C, C++: the standard library's) where there is one; functions without a counterpart (erfcx, erfinv,
 // the Kepler equation ...) keep their polynomials.
 //
 // Errors are maxima for strict, float / double, in eps = 2^-24 / 2^-53, relative unless stated otherwise. Those in ulps
@@ -13,19 +13,9 @@
 #include "shim.h"
 #include "polynomials.h"
 
+VNDF_BEGIN
+
 #define VNDF_IMPL_STRICT (VNDF_POLICY == 0)
-#define VNDF_IMPL_NATIVE (VNDF_POLICY == 2)
-#if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
-#define VNDF_IMPL_STD(name) name
-#if VNDF_IMPL_NATIVE
-#define VNDF_IMPL_FAST(name) native_##name
-#else
-#define VNDF_IMPL_FAST(name) name
-#endif
-#else
-#define VNDF_IMPL_STD(name) std::name
-#define VNDF_IMPL_FAST(name) std::name
-#endif
 
 #define VNDF_IMPL_FIRST(c) VNDF_REAL p = VNDF_R(c);
 #define VNDF_IMPL_NEXT(c) p = VNDF_FMA(p, z, VNDF_R(c));
@@ -82,12 +72,8 @@ VNDF_FN VNDF_REAL vndf_impl_sin_2pi(VNDF_REAL x) {
     VNDF_REAL z = x * x;
     VNDF_IMPL_SIN_2PI(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     return VNDF_FMA(x, VNDF_R(4.0), p * x);
-#elif VNDF_IMPL_NATIVE
-    return native_sin(VNDF_R(2.0) * VNDF_PI * x);
-#elif defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
-    return sinpi(VNDF_R(2.0) * x);
 #else
-    return std::sin(VNDF_R(2.0) * VNDF_PI * x);
+    return VNDF_SIN_2PI(x);
 #endif
 }
 
@@ -110,7 +96,7 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
     // only small terms are rounded.
     VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440));
     VNDF_INT bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;  // of a number below 0 the difference might overflow
-    VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
+    VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL f = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
     VNDF_REAL s = f / (VNDF_R(2.0) + f);
@@ -121,7 +107,7 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
     VNDF_REAL result = VNDF_FMA(k, VNDF_IMPL_LN2_HIGH, f + tail);
     return x > VNDF_R(0.0) ? result : x - x + result;  // the bits of NaN are no number
 #else
-    return VNDF_IMPL_FAST(log)(x);
+    return VNDF_FAST(log)(x);
 #endif
 }
 
@@ -130,7 +116,7 @@ VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
 #if VNDF_IMPL_STRICT && !VNDF_DOUBLE
     // As above, without a division: log(1 + f) = f + f^2 p(f).
     VNDF_INT low = VNDF_AS_INT(0.70710678118654752440f), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
-    VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
+    VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_REAL z = VNDF_AS_REAL((bits & 0x7fffff) + low) - 1.0f;
     VNDF_REAL z2 = z * z, z4 = z2 * z2, p = VNDF_IMPL_LOG1P(VNDF_IMPL_P9, VNDF_R);
     return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z)) +
@@ -142,7 +128,7 @@ VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
 // The same to 4e-4 of its size, with every policy.
 VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
     VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440)), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
-    VNDF_REAL k = VNDF_TO_REAL(bits >> VNDF_IMPL_MANTISSA_BITS);
+    VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL z = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
     VNDF_IMPL_LOG1P_ROUGH(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
@@ -174,7 +160,7 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
     VNDF_REAL result =
         vndf_impl_times_power(scale * power, VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER));
 #else
-    VNDF_REAL root = VNDF_IMPL_FAST(exp)(VNDF_R(0.5) * bounded);
+    VNDF_REAL root = VNDF_FAST(exp)(VNDF_R(0.5) * bounded);
     VNDF_REAL result = scale * root * VNDF_FMA(root, low, root);
 #endif
     return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
@@ -191,7 +177,7 @@ VNDF_FN VNDF_REAL vndf_impl_moderate_exp(VNDF_REAL x) {
     // k is in the last bits of `shifted`; the others leave by the shift.
     return VNDF_AS_REAL(VNDF_AS_INT(power) + (VNDF_AS_INT(shifted) << VNDF_IMPL_MANTISSA_BITS));
 #else
-    return VNDF_IMPL_FAST(exp)(x);
+    return VNDF_FAST(exp)(x);
 #endif
 }
 
@@ -212,7 +198,7 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_
     VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
 #else
-    VNDF_REAL power = VNDF_IMPL_FAST(exp)(z);
+    VNDF_REAL power = VNDF_FAST(exp)(z);
 #endif
     VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
     VNDF_REAL result = vndf_impl_times_power(scale.part * power, exponent);
@@ -279,11 +265,11 @@ VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_of(VNDF_REAL x) {
 
 // erfinv(p) / p as a function of w = -log(1 - p^2), 0 <= w <= 42 / 744, and of its root.
 VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio_of_log(VNDF_REAL w, VNDF_REAL root) {
-    bool centre =
+    int centre =
         w <= VNDF_R(7.0);  // one polynomial, whose coefficients are selected: two would not vectorise
 #if VNDF_DOUBLE
     VNDF_REAL inverse = 1.0 / (centre ? 1.0 : root);
-    bool middle = w <= 40.0;
+    int middle = w <= 40.0;
     VNDF_REAL z = centre ? w - 3.5 : inverse - (middle ? 0.25 : 0.1);
     VNDF_IMPL_ERFINV(VNDF_IMPL_FIRST_OF, VNDF_IMPL_NEXT_OF)
     return centre ? p : p * root;
@@ -325,7 +311,7 @@ VNDF_FN VNDF_REAL vndf_impl_cbrt(VNDF_REAL x) {
     VNDF_REAL y = x * r * r;
     return VNDF_FMA(VNDF_FMA(-y * y, y, x), r * r * VNDF_R(0.33333333333333333333), y);
 #else
-    return VNDF_IMPL_STD(cbrt)(x);
+    return VNDF_STD(cbrt)(x);
 #endif
 }
 
@@ -360,7 +346,7 @@ VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
     VNDF_REAL a = t * p;
     a = ax < ay ? VNDF_R(0.25) - a : a;
 #else
-    VNDF_REAL a = VNDF_R(0.5) * VNDF_1_PI * VNDF_IMPL_STD(atan2)(ay, ax);
+    VNDF_REAL a = VNDF_R(0.5) * VNDF_1_PI * VNDF_STD(atan2)(ay, ax);
 #endif
     a = x < VNDF_R(0.0) ? VNDF_R(0.5) - a : a;
     return y < VNDF_R(0.0) ? VNDF_R(1.0) - a : a;
@@ -379,5 +365,7 @@ VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
 #undef VNDF_IMPL_FIRST_OF
 #undef VNDF_IMPL_NEXT_OF
 #endif
+
+VNDF_END
 
 #endif

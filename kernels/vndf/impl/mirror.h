@@ -4,6 +4,8 @@
 
 #include "stretch.h"
 
+VNDF_BEGIN
+
 // D / (2 n) of a normal whose unstretched form is `ratio` times as long squared, for a normaliser n > 0.
 VNDF_FN VNDF_REAL vndf_impl_reflection_density(VNDF_REAL ratio, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
@@ -66,5 +68,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REA
     VNDF_REAL pdf = vndf_impl_reflection_density(ratio, n, alpha_x, alpha_y);
     return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
+
+VNDF_END
 
 #endif

@@ -4,6 +4,8 @@
 
 #include "math.h"
 
+VNDF_BEGIN
+
 // alpha within [VNDF_ALPHA_MIN, VNDF_ALPHA_MAX]: below, a float direction cannot tell the lobe from a mirror; above, squares
 // would leave the range of numbers. NaN counts as the least.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
@@ -74,5 +76,7 @@ VNDF_FN struct vndf_impl_power vndf_impl_split(VNDF_REAL x) {
     s.exponent = VNDF_IMPL_EXPONENT_BIAS - (VNDF_AS_INT(scale) >> VNDF_IMPL_MANTISSA_BITS);
     return s;
 }
+
+VNDF_END
 
 #endif

@@ -1,59 +1,81 @@
-// What differs between OpenCL C and C++: how functions are declared, vector types, fma, sqrt and the bits of numbers.
+// What differs between the languages: how functions are declared, vector types, fma, sqrt, library functions and the bits of
+// numbers. OpenCL C 1.2 to 3.0 and C++ for OpenCL share one half; C99, C++11, CUDA and HIP (also by NVRTC and HIPRTC, which
+// have no headers) the other.
 #ifndef VNDF_IMPL_SHIM_H
 #define VNDF_IMPL_SHIM_H
 
 #include "../config.h"
 
-#if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__) || defined(__OPENCL_VERSION__)
 
 #pragma OPENCL FP_CONTRACT OFF
-#if VNDF_DOUBLE
-#if __OPENCL_C_VERSION__ < 120 && defined(cl_khr_fp64)
+#if VNDF_DOUBLE && defined(cl_khr_fp64) && defined(__OPENCL_C_VERSION__)
+#if __OPENCL_C_VERSION__ < 120
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
 #endif
 // always_inline, not just inline: one call that stays a call keeps a CPU device from vectorising the kernel.
-#define VNDF_FN static inline __attribute__((always_inline))
+#ifndef VNDF_FN
+#define VNDF_FN static inline __attribute__((always_inline, __unused__))
+#endif
+#define VNDF_BEGIN
+#define VNDF_END
+
 #define VNDF_REAL2 VNDF_CAT(VNDF_REAL, 2)
 #define VNDF_REAL3 VNDF_CAT(VNDF_REAL, 3)
 #define VNDF_REAL4 VNDF_CAT(VNDF_REAL, 4)
-#define VNDF_MAKE2(x, y) ((VNDF_REAL2)((x), (y)))
-#define VNDF_MAKE3(x, y, z) ((VNDF_REAL3)((x), (y), (z)))
-#define VNDF_MAKE4(x, y, z, w) ((VNDF_REAL4)((x), (y), (z), (w)))
+#define VNDF_MAKE2(x, y) ((VNDF_REAL2)(x, y))
+#define VNDF_MAKE3(x, y, z) ((VNDF_REAL3)(x, y, z))
+#define VNDF_MAKE4(x, y, z, w) ((VNDF_REAL4)(x, y, z, w))
+
 #if VNDF_SOFTWARE_FMA
 VNDF_FN VNDF_REAL vndf_impl_fma(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c) {
     return c == VNDF_R(0.0) ? a * b + c : fma(a, b, c);
 }
 #define VNDF_FMA(a, b, c) vndf_impl_fma(a, b, c)
 #else
-#define VNDF_FMA(a, b, c) fma((VNDF_REAL)(a), (VNDF_REAL)(b), (VNDF_REAL)(c))
+#define VNDF_FMA(a, b, c) fma(a, b, c)
 #endif
-#define VNDF_SQRT(x) sqrt((VNDF_REAL)(x))
+#define VNDF_SQRT(x) sqrt(x)
+// A function of the language's library, and the fast one of it for VNDF_MATH native.
+#define VNDF_STD(name) name
+#if VNDF_POLICY == 2
+#define VNDF_FAST(name) native_##name
+#define VNDF_SIN_2PI(x) native_sin(VNDF_R(2.0) * VNDF_PI * (x))
+#else
+#define VNDF_FAST(name) name
+#define VNDF_SIN_2PI(x) sinpi(VNDF_R(2.0) * (x))
+#endif
 #if VNDF_DOUBLE
 #define VNDF_INT long
 #define VNDF_AS_INT(x) as_long(x)
 #define VNDF_AS_REAL(x) as_double(x)
-#define VNDF_TO_INT(x) convert_long(x)
-#define VNDF_TO_REAL(x) convert_double(x)
 #else
 #define VNDF_INT int
 #define VNDF_AS_INT(x) as_int(x)
 #define VNDF_AS_REAL(x) as_float(x)
-#define VNDF_TO_INT(x) convert_int(x)
-#define VNDF_TO_REAL(x) convert_float(x)
 #endif
 
-#else  // C++
+#else  // C, C++, CUDA, HIP
 
+#if defined(__cplusplus) && __cplusplus < 201103L && !defined(_MSC_VER)
+#error "clvndf: C++11 or later is needed"
+#endif
 #if VNDF_POLICY == 2
 #error "clvndf: VNDF_MATH native exists on OpenCL devices only"
 #undef VNDF_MATH
 #define VNDF_MATH strict
 #endif
-#include <cfloat>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
+#if defined(__CUDACC__) || defined(__CUDACC_RTC__) || defined(__HIPCC__) || defined(__HIPCC_RTC__)
+#define VNDF_IMPL_GPU 1
+#else
+#define VNDF_IMPL_GPU 0
+#endif
+
+#if !defined(__CUDACC_RTC__) && !defined(__HIPCC_RTC__)
+#include <float.h>
+#include <math.h>
+#include <string.h>
 
 // Every macro by which a compiler tells of an option that changes results.
 #if VNDF_ALLOW_FAST_MATH
@@ -73,68 +95,169 @@ VNDF_FN VNDF_REAL vndf_impl_fma(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c) {
 #error \
     "clvndf: FLT_EVAL_METHOD is not 0 (-mfpmath=387, 32-bit x86 without -msse2 -mfpmath=sse, or a part of fast math), which changes results; compile otherwise, or set VNDF_ALLOW_FAST_MATH to 1"
 #endif
-#if VNDF_DOUBLE && !VNDF_ALLOW_FAST_MATH
+#if !VNDF_DOUBLE || VNDF_ALLOW_FAST_MATH
+#elif defined(__cplusplus)
 static_assert(sizeof(1.0) == sizeof(double), "clvndf: -fsingle-precision-constant changes results");
+#elif __STDC_VERSION__ >= 201112L
+_Static_assert(sizeof(1.0) == sizeof(double), "clvndf: -fsingle-precision-constant changes results");
 #endif
-#define VNDF_FN [[maybe_unused]] static inline
+#endif
 
-#if defined(VNDF_REAL2) + defined(VNDF_REAL3) + defined(VNDF_REAL4) != 0 && \
-    !(defined(VNDF_REAL2) && defined(VNDF_REAL3) && defined(VNDF_REAL4))
-#error "clvndf: vector types of your own are all three: VNDF_REAL2, VNDF_REAL3 and VNDF_REAL4"
-#undef VNDF_REAL2
-#undef VNDF_REAL3
-#undef VNDF_REAL4
+#ifdef VNDF_FN
+#elif VNDF_IMPL_GPU
+#define VNDF_FN static inline __host__ __device__ __attribute__((__unused__))
+#elif defined(__GNUC__)
+#define VNDF_FN static inline __attribute__((__unused__))
+#else
+#define VNDF_FN static inline
 #endif
-#ifndef VNDF_REAL3
+
+// Structs of reals are other types for another VNDF_REAL: one program may hold both.
+#ifdef __cplusplus
+#define VNDF_BEGIN inline namespace VNDF_CAT(vndf_, VNDF_REAL) {
+#define VNDF_END }
+#else
+#define VNDF_BEGIN
+#define VNDF_END
+#endif
+
 #ifndef VNDF_VECTOR_TYPES
 #define VNDF_VECTOR_TYPES
-struct vndf_float2 {
+#if VNDF_IMPL_GPU
+typedef float2 vndf_float2;
+typedef float3 vndf_float3;
+typedef float4 vndf_float4;
+typedef double2 vndf_double2;
+typedef double3 vndf_double3;
+#else
+typedef struct vndf_float2 {
     float x, y;
-};
-struct vndf_float3 {
+} vndf_float2;
+typedef struct vndf_float3 {
     float x, y, z;
-};
-struct vndf_float4 {
+} vndf_float3;
+typedef struct vndf_float4 {
     float x, y, z, w;
-};
-struct vndf_double2 {
+} vndf_float4;
+typedef struct vndf_double2 {
     double x, y;
-};
-struct vndf_double3 {
+} vndf_double2;
+typedef struct vndf_double3 {
     double x, y, z;
-};
-struct vndf_double4 {
-    double x, y, z, w;
-};
+} vndf_double3;
 #endif
+// CUDA 13 deprecates its own.
+typedef struct vndf_double4 {
+    double x, y, z, w;
+} vndf_double4;
+#endif
+
+// How a vector is made and read goes with its type: alone, VNDF_MAKE3 and VNDF_GET3 would be for ours.
+#if (defined(VNDF_MAKE2) || defined(VNDF_GET2)) && !defined(VNDF_REAL2)
+#error "clvndf: VNDF_MAKE2 and VNDF_GET2 are for a vector type of your own: define VNDF_REAL2, too"
+#undef VNDF_MAKE2
+#undef VNDF_GET2
+#endif
+#if (defined(VNDF_MAKE3) || defined(VNDF_GET3)) && !defined(VNDF_REAL3)
+#error "clvndf: VNDF_MAKE3 and VNDF_GET3 are for a vector type of your own: define VNDF_REAL3, too"
+#undef VNDF_MAKE3
+#undef VNDF_GET3
+#endif
+#if defined(VNDF_MAKE4) && !defined(VNDF_REAL4)
+#error "clvndf: VNDF_MAKE4 is for a vector type of your own: define VNDF_REAL4, too"
+#undef VNDF_MAKE4
+#endif
+#if (defined(VNDF_GET2) || defined(VNDF_GET3)) && !defined(__cplusplus)
+#error "clvndf: VNDF_GET2 and VNDF_GET3 need C++; in C a vector type of your own has members x, y and z"
+#undef VNDF_GET2
+#undef VNDF_GET3
+#endif
+#ifndef VNDF_REAL2
 #define VNDF_REAL2 VNDF_CAT(VNDF_CAT(vndf_, VNDF_REAL), 2)
+#endif
+#ifndef VNDF_REAL3
 #define VNDF_REAL3 VNDF_CAT(VNDF_CAT(vndf_, VNDF_REAL), 3)
+#endif
+#ifndef VNDF_REAL4
 #define VNDF_REAL4 VNDF_CAT(VNDF_CAT(vndf_, VNDF_REAL), 4)
 #endif
-#define VNDF_MAKE2(x, y) (VNDF_REAL2{(x), (y)})
-#define VNDF_MAKE3(x, y, z) (VNDF_REAL3{(x), (y), (z)})
-#define VNDF_MAKE4(x, y, z, w) (VNDF_REAL4{(x), (y), (z), (w)})
-#define VNDF_FMA(a, b, c) std::fma((VNDF_REAL)(a), (VNDF_REAL)(b), (VNDF_REAL)(c))
-#define VNDF_SQRT(x) std::sqrt((VNDF_REAL)(x))
-#if VNDF_DOUBLE
-#define VNDF_INT std::int64_t
+#ifdef __cplusplus
+#define VNDF_IMPL_BRACES(type) type
 #else
-#define VNDF_INT std::int32_t
+#define VNDF_IMPL_BRACES(type) (type)
 #endif
-static inline VNDF_INT vndf_impl_as_int(VNDF_REAL x) {
+#ifndef VNDF_MAKE2
+#define VNDF_MAKE2(x, y) (VNDF_IMPL_BRACES(VNDF_REAL2){x, y})
+#endif
+#ifndef VNDF_MAKE3
+#define VNDF_MAKE3(x, y, z) (VNDF_IMPL_BRACES(VNDF_REAL3){x, y, z})
+#endif
+#ifndef VNDF_MAKE4
+#define VNDF_MAKE4(x, y, z, w) (VNDF_IMPL_BRACES(VNDF_REAL4){x, y, z, w})
+#endif
+
+#if VNDF_DOUBLE
+#define VNDF_STD(name) name
+#define VNDF_INT long long
+#else
+#define VNDF_STD(name) name##f
+#define VNDF_INT int
+#endif
+#define VNDF_FAST(name) VNDF_STD(name)
+#define VNDF_FMA(a, b, c) VNDF_STD(fma)(a, b, c)
+#define VNDF_SQRT(x) VNDF_STD(sqrt)(x)
+#define VNDF_SIN_2PI(x) VNDF_STD(sin)(VNDF_R(2.0) * VNDF_PI * (x))
+
+VNDF_BEGIN
+VNDF_FN VNDF_INT vndf_impl_as_int(VNDF_REAL x) {
     VNDF_INT i;
-    std::memcpy(&i, &x, sizeof i);
+    memcpy(&i, &x, sizeof i);
     return i;
 }
-static inline VNDF_REAL vndf_impl_as_real(VNDF_INT i) {
+VNDF_FN VNDF_REAL vndf_impl_as_real(VNDF_INT i) {
     VNDF_REAL x;
-    std::memcpy(&x, &i, sizeof x);
+    memcpy(&x, &i, sizeof x);
     return x;
 }
+VNDF_END
 #define VNDF_AS_INT(x) vndf_impl_as_int(x)
 #define VNDF_AS_REAL(x) vndf_impl_as_real(x)
-#define VNDF_TO_INT(x) static_cast<VNDF_INT>(x)
-#define VNDF_TO_REAL(x) static_cast<VNDF_REAL>(x)
+
+// A type without members x, y and z is made of and into one that has them, where functions are called and where they return.
+#if VNDF_IMPL_GPU
+#define VNDF_IMPL_MEMBER __host__ __device__
+#else
+#define VNDF_IMPL_MEMBER
+#endif
+#ifdef VNDF_GET2
+VNDF_BEGIN
+struct vndf_impl_vector2 {
+    VNDF_REAL x, y;
+    VNDF_IMPL_MEMBER vndf_impl_vector2(VNDF_REAL a, VNDF_REAL b) : x(a), y(b) {}
+    VNDF_IMPL_MEMBER vndf_impl_vector2(const VNDF_REAL2& v) : x(VNDF_GET2(v, 0)), y(VNDF_GET2(v, 1)) {}
+    VNDF_IMPL_MEMBER operator VNDF_REAL2() const { return VNDF_MAKE2(x, y); }
+};
+VNDF_END
+#undef VNDF_REAL2
+#undef VNDF_MAKE2
+#define VNDF_REAL2 vndf_impl_vector2
+#define VNDF_MAKE2(x, y) vndf_impl_vector2(x, y)
+#endif
+#ifdef VNDF_GET3
+VNDF_BEGIN
+struct vndf_impl_vector3 {
+    VNDF_REAL x, y, z;
+    VNDF_IMPL_MEMBER vndf_impl_vector3(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c) : x(a), y(b), z(c) {}
+    VNDF_IMPL_MEMBER vndf_impl_vector3(const VNDF_REAL3& v)
+        : x(VNDF_GET3(v, 0)), y(VNDF_GET3(v, 1)), z(VNDF_GET3(v, 2)) {}
+    VNDF_IMPL_MEMBER operator VNDF_REAL3() const { return VNDF_MAKE3(x, y, z); }
+};
+VNDF_END
+#undef VNDF_REAL3
+#undef VNDF_MAKE3
+#define VNDF_REAL3 vndf_impl_vector3
+#define VNDF_MAKE3(x, y, z) vndf_impl_vector3(x, y, z)
+#endif
 
 #endif
 

@@ -4,6 +4,8 @@
 
 #include "exact.h"
 
+VNDF_BEGIN
+
 // sin and cos of the angle psi whose slope x = tan psi has the visible cumulative probability u1.
 // Source: Heitz & d'Eon 2014, supplement 1, Section 4.2. The distribution is affine in s = sin(theta + psi):
 //     s = u1 (1 + c) - c with c = cos theta, and cos(theta + psi) = sqrt((1 - s)(1 + s)) with both factors
@@ -28,5 +30,7 @@ VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, 
     slope.cos_psi = opposite ? conjugate : direct;
     return slope;
 }
+
+VNDF_END
 
 #endif

@@ -6,6 +6,8 @@
 
 #include "range.h"
 
+VNDF_BEGIN
+
 struct vndf_impl_sample {
     VNDF_REAL x, y, z, pdf;
 };
@@ -117,5 +119,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }
+
+VNDF_END
 
 #endif

@@ -1,0 +1,190 @@
+#include "emit/emit.h"
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "emit/layout.h"
+#include "emit/prune.h"
+#include "emit/selftest.h"
+#include "error.h"
+#include "registry.h"
+
+namespace vndf::emit {
+namespace {
+
+std::vector<std::string> all_names() {
+    std::vector<std::string> names;
+    for (const Function& function : functions()) names.push_back(function.name);
+    for (const LobeFunction& lobe : lobe_functions()) names.push_back(lobe.name);
+    return names;
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+// vndf_ and VNDF_ at the beginning of each name become the prefix.
+std::string renamed(const std::string& text, const std::string& prefix) {
+    static const std::regex lower("\\bvndf_(?=\\w)"), capitals("\\bVNDF_(?=\\w)");
+    return std::regex_replace(std::regex_replace(text, lower, prefix), capitals, upper(prefix));
+}
+
+std::vector<std::string> macros(const Options& options) {
+    std::vector<std::string> all = {fmt::format("VNDF_REAL={}", to_string(options.real)),
+                                    fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN"};
+    switch (options.language) {
+        case Language::opencl:
+        case Language::string:
+            all.push_back("__OPENCL_C_VERSION__=120");
+            break;
+        case Language::c:
+            break;
+        case Language::cuda:
+            all.push_back("__CUDACC__=1");
+            [[fallthrough]];
+        case Language::cpp:
+            all.push_back("__cplusplus=201103L");
+            break;
+    }
+    return all;
+}
+
+std::string commented(std::string_view text) {
+    std::vector<std::string> lines;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        lines.push_back(end == 0 ? "//" : "// " + std::string(text.substr(0, end)));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return lay_out_comment(lines, 0);
+}
+
+// What the user may want to know before the functions.
+std::string introduction(const Options& options) {
+    std::string out = commented(options.stamp) + "//\n" + commented(licence_files().at(0).text) + "//\n";
+    out += commented(
+        "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from "
+        "the\n"
+        "surface, in a right-handed frame with z along its normal. alpha: parameters of the distribution, "
+        "no\n"
+        "perceptual roughness. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions "
+        "are\n"
+        "declared, may be set before.\n");
+    return out;
+}
+
+// What each language needs, and nothing else.
+std::string prologue(const Options& options, bool copies_bits) {
+    std::string out = "#ifndef VNDF_EMITTED_H\n#define VNDF_EMITTED_H\n\n";
+    const auto function = [&](std::string_view words) {
+        return fmt::format("#ifndef VNDF_FN\n#define VNDF_FN {}\n#endif\n", words);
+    };
+    switch (options.language) {
+        case Language::opencl:
+        case Language::string:
+            out += "#pragma OPENCL FP_CONTRACT OFF\n";
+            if (options.real == runtime::Real::f64)
+                out +=
+                    "#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120\n"
+                    "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#endif\n";
+            return out + function("static inline __attribute__((always_inline, __unused__))");
+        case Language::cuda:
+            return out + function("static inline __host__ __device__ __attribute__((__unused__))");
+        case Language::c:
+        case Language::cpp:
+            out += copies_bits ? "#include <math.h>\n#include <string.h>\n\n" : "#include <math.h>\n\n";
+            out +=
+                "#if defined(__FAST_MATH__) && !defined(VNDF_ALLOW_FAST_MATH)\n"
+                "#error \"-ffast-math changes results; compile without it, or define "
+                "VNDF_ALLOW_FAST_MATH\"\n#endif\n"
+                "#if !defined(VNDF_FN) && defined(__GNUC__)\n"
+                "#define VNDF_FN static inline __attribute__((__unused__))\n#endif\n";
+            return out + function("static inline");
+    }
+    return out;
+}
+
+// As string literals of C and C++; beyond what compilers take of one (MSVC: 65535 characters) as an array of lines.
+std::string as_string(const std::string& source, const Options& options) {
+    std::string lines;
+    const bool array = source.size() > 65000;
+    std::string_view rest = source;
+    while (!rest.empty()) {
+        const std::size_t end = rest.find('\n');
+        std::string line(rest.substr(0, end));
+        line = std::regex_replace(line, std::regex(R"(["\\])"), "\\$&");
+        lines += fmt::format("    \"{}\\n\"{}\n", line, array ? "," : "");
+        rest.remove_prefix(end + 1);
+    }
+    lines.pop_back();
+    if (lines.back() == ',') lines.pop_back();
+    return commented(options.stamp) +
+           fmt::format("#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n{}\n{}{};\n\n#endif\n",
+                       array ? "/* Lines, since compilers limit the length of one literal. */\n"
+                               "static const char* const vndf_source[] = {"
+                             : "static const char vndf_source[] =",
+                       lines, array ? "\n}" : "");
+}
+
+}  // namespace
+
+std::string resolve(const std::string& name) {
+    const std::vector<std::string> all = all_names();
+    for (const std::string& full : all)
+        if (full == name || full == "vndf_" + name) return full;
+    std::vector<std::string> found;
+    for (const std::string& full : all)
+        if (full.find(name) != full.npos) found.push_back(full);
+    if (found.size() == 1) return found[0];
+    if (found.empty())
+        throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)",
+                                     name, fmt::join(nearest_names(name), ", ")));
+    const std::size_t count = found.size();
+    found.resize(std::min<std::size_t>(count, 3));
+    throw InputError(
+        fmt::format("'{}' is ambiguous: {} functions have it in their names, among them {} (see clvndf list)",
+                    name, count, fmt::join(found, ", ")));
+}
+
+void require_prefix(const std::string& prefix) {
+    static const std::regex name("[A-Za-z_][A-Za-z0-9_]*");
+    if (prefix.size() > 64 || !std::regex_match(prefix, name))
+        throw InputError(
+            fmt::format("--prefix '{}': no beginning of a name (letters, digits and _, at most 64)", prefix));
+    // What OpenCL and C keep for themselves, and begins like names of ours with that prefix.
+    static const std::regex reserved(
+        "_.*|.*__.*|(as|convert|make|native|half|get|async|atomic|read|write|sub_group|work_group|intel|amd|"
+        "cl|gl|"
+        "to|is|str|mem|wcs)_"
+        "|cl|gl|vload|vstore|E|is|to|str|mem|wcs");
+    if (std::regex_match(prefix, reserved))
+        throw InputError(
+            fmt::format("--prefix '{}': names that begin so belong to C, C++ or OpenCL", prefix));
+}
+
+std::string emit(const Options& options) {
+    const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
+    std::set<std::string> names(options.functions.begin(), options.functions.end());
+    if (options.selftest) names.merge(selftest_needs(options));
+    const std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);
+    std::set<std::string> files;  // whose head is kept: of those with a function asked for
+    for (const Declaration& declaration : chosen)
+        if (names.contains(declaration.name)) files.insert(declaration.file);
+    std::string body;
+    for (const Declaration& declaration : chosen) {
+        if (files.erase(declaration.file))
+            body += lay_out_comment(file_comment(tokens, declaration.file), 0) + '\n';
+        body += lay_out(declaration) + '\n';
+    }
+    if (options.selftest) body += selftest(options) + '\n';
+    const bool copies_bits = body.find("memcpy(") != body.npos;
+    std::string text = introduction(options) + prologue(options, copies_bits) + '\n' + body + "#endif\n";
+    if (options.language == Language::string) text = as_string(text, options);
+    return renamed(text, options.prefix);
+}
+
+}  // namespace vndf::emit

@@ -1,0 +1,16 @@
+// What a set of functions computes and never uses: members of structs, local numbers, parameters.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "emit/declarations.h"
+
+namespace vndf::emit {
+
+// Without them. The functions of these names keep their parameters and results; so do all results their values, since
+// nothing here has an effect but its result.
+std::vector<Declaration> pruned(std::vector<Declaration> all, const std::set<std::string>& names);
+
+}  // namespace vndf::emit
