@@ -7,7 +7,6 @@
 #define VNDF_GGX_BENYOUB2024_H
 
 #include "ggx.h"
-#include "impl/caps.h"
 #include "impl/exact.h"
 #include "impl/lobe.h"
 

@@ -93,7 +93,7 @@ def check_lobes(data):
 
 def check_report():
     with tempfile.TemporaryDirectory() as folder:
-        for inputs in ([sample, sample],):
+        for inputs in ([sample], [sample, sample]):
             page = pathlib.Path(folder) / "index.html"
             subprocess.run([sys.executable, source / "bench/report/report.py", page, *inputs], check=True)
             text = page.read_text()
