@@ -27,8 +27,8 @@ struct Rows {
 const Rows& rows_of(const Function& function, runtime::Real real, std::size_t count, Side side,
                     AlphaRange alpha) {
     static std::map<std::string, Rows> known;
-    const std::string key = fmt::format("{} {} {} {} {}", function.name, to_string(real), count,
-                                        static_cast<int>(side), alpha.low);
+    const std::string key = fmt::format("{} {} {} {} {} {}", function.name, to_string(real), count,
+                                        static_cast<int>(side), alpha.low, alpha.high);
     const std::string function_key = function.name + ' ';
     // Functions come one after the other: what belongs to earlier ones is not needed again.
     std::erase_if(known, [&](const auto& entry) { return !entry.first.starts_with(function_key); });
@@ -59,6 +59,21 @@ void count_bad(const Function& function, const Rows& rows, const std::vector<std
     }
 }
 
+// The part of a sampler's directions that are reflections above the surface.
+double useful_part(const Function& function, const Rows& rows,
+                   const std::vector<std::vector<double>>& results) {
+    std::size_t useful = 0;
+    for (std::size_t i = 0; i < rows.points.size(); ++i) {
+        const Direction d{results[0][i], results[1][i], results[2][i]};
+        const Point& point = rows.points[i];
+        const double cosine = conformance::dot(point.wo, d), height = conformance::dot(d, point.n);
+        useful += function.result == "WI"
+                      ? height > 0
+                      : cosine > 0 && 2 * cosine * height > conformance::dot(point.wo, point.n);
+    }
+    return static_cast<double>(useful) / static_cast<double>(rows.points.size());
+}
+
 void add_errors(const std::string& prefix, const conformance::Errors& errors, runtime::Real real,
                 std::map<std::string, double>& figures) {
     // JSON has no infinity: half a turn is the largest angle.
@@ -76,19 +91,22 @@ bool in_world_space(const Function& function) {
 }
 
 bool has_back(const Function& function) {
-    return function.kind == Kind::sampler && !function.with_pdf && function.domain == Domain::sphere &&
+    return is_plain_sampler(function) && function.domain == Domain::sphere &&
            conformance::column(function, "wo_x") >= 0;
 }
 
-std::map<std::string, double> accuracy(runtime::Evaluator& evaluator, const Function& function,
-                                       std::size_t rows, AlphaRange alpha, bool same_map) {
-    std::map<std::string, double> figures = {{"nonfinite", 0}};
+Accuracy accuracy(runtime::Evaluator& evaluator, const Function& function, std::size_t rows, AlphaRange alpha,
+                  bool same_map) {
+    Accuracy known;
+    auto& figures = known.figures = {{"nonfinite", 0}};
     if (function.kind == Kind::sampler) figures["below"] = 0;
     for (const Side side : {Side::front, Side::back}) {
         if (side == Side::back && !has_back(function)) continue;
         const Rows& judged = rows_of(function, evaluator.input_real(), rows, side, alpha);
         const auto results = conformance::evaluate(evaluator, function, judged.table);
         count_bad(function, judged, results, figures);
+        if (side == Side::front && function.kind == Kind::sampler)
+            known.useful = useful_part(function, judged, results);
         if (!same_map) continue;
         const std::string of = side == Side::front ? "" : "_back";
         if (function.kind != Kind::sampler) {
@@ -101,29 +119,12 @@ std::map<std::string, double> accuracy(runtime::Evaluator& evaluator, const Func
         add_errors("err" + of, errors.over_condition, evaluator.input_real(), figures);
         add_errors("angle" + of, errors.angle, evaluator.input_real(), figures);
     }
-    if (!same_map) return figures;
+    if (!same_map) return known;
     // An approximate sampler is judged against its own map above: here its distribution against the exact one.
     for (const conformance::Finding& finding : conformance::measure_bias(evaluator, function))
         if (finding.check.find("CDF error") != std::string::npos)
             figures["bias"] = std::max(figures["bias"], finding.figure);
-    return figures;
-}
-
-double useful_part(runtime::Evaluator& evaluator, const Function& function, std::size_t count,
-                   AlphaRange alpha) {
-    if (function.kind != Kind::sampler) return 1;
-    const Rows& rows = rows_of(function, evaluator.input_real(), count, Side::front, alpha);
-    const auto results = conformance::evaluate(evaluator, function, rows.table);
-    std::size_t useful = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Direction d{results[0][i], results[1][i], results[2][i]};
-        const Point& point = rows.points[i];
-        const double cosine = conformance::dot(point.wo, d), height = conformance::dot(d, point.n);
-        useful += function.result == "WI"
-                      ? height > 0
-                      : cosine > 0 && 2 * cosine * height > conformance::dot(point.wo, point.n);
-    }
-    return static_cast<double>(useful) / static_cast<double>(count);
+    return known;
 }
 
 }  // namespace vndf::bench

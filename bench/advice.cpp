@@ -22,7 +22,7 @@ std::string what_of(const Function& function) {
 
 // Visible normals for (wo, alpha, u): other arguments are other tasks, and approximations are no answer to an error.
 bool is_candidate(const Function& function) {
-    return function.kind == Kind::sampler && !function.with_pdf && function.method == Method::exact &&
+    return is_plain_sampler(function) && function.method == Method::exact &&
            function.arguments == "WO_ALPHA_U";
 }
 
@@ -32,15 +32,14 @@ std::vector<Advice> advise(const std::vector<Result>& results, const Demand& dem
     std::map<std::string, Advice> by_task;
     const bool sphere = demand.domain == Domain::sphere;
     for (const Result& result : results) {
-        const std::size_t name = result.name.find('/'), mode = result.name.rfind('/');
-        const Function* function = find_function(result.name.substr(0, name));
+        const EntryName name = split(result.name);
+        const Function* function = find_function(name.function);
         if (!function || !is_candidate(*function) || (sphere && function->domain != Domain::sphere)) continue;
         const std::string wanted = sphere || !has_back(*function) ? "cached" : "cached_front";
-        const std::string rung = result.name.substr(name + 1, mode - name - 1);
-        if (result.name.substr(mode + 1) != wanted || rung.find("_again") != rung.npos ||
+        if (name.mode != wanted || name.form.find("_again") != std::string::npos ||
             !result.counters.contains("angle_max"))
             continue;
-        Candidate candidate{function, rung, result.best_ns, counter(result, "angle_max")};
+        Candidate candidate{function, name.form, result.best_ns, counter(result, "angle_max")};
         if (sphere) candidate.error = std::max(candidate.error, counter(result, "angle_back_max"));
         candidate.sound = counter(result, "nonfinite") == 0 && counter(result, "below") == 0;
         by_task[what_of(*function)].candidates.push_back(candidate);

@@ -22,7 +22,7 @@ struct Source {
 std::vector<std::string> plain_samplers() {
     std::vector<std::string> names;
     for (const Function& f : functions())
-        if (f.kind == Kind::sampler && !f.with_pdf) names.push_back(f.name);
+        if (is_plain_sampler(f)) names.push_back(f.name);
     return names;
 }
 

@@ -83,7 +83,7 @@ void register_entry(const Entry& entry, int repetitions, const std::function<voi
 }
 
 // "FUNCTION/strict/float/stream" out of the name that Google Benchmark makes of it.
-std::string entry_name(const Run& run) {
+std::string name_of(const Run& run) {
     return run.run_name.function_name;
 }
 
@@ -126,10 +126,6 @@ std::string with_surroundings(const std::string& json, const Surroundings& surro
     return data.dump(1) + "\n";
 }
 
-std::string mode_of(const std::string& entry) {
-    return entry.substr(entry.rfind('/') + 1);
-}
-
 // How far the ratios of the pairs A/A, .../strict_again/... over .../strict/..., are from 1.
 std::map<std::string, double> spread_of(const std::map<std::string, double>& best_ns) {
     std::map<std::string, double> spread;
@@ -138,7 +134,7 @@ std::map<std::string, double> spread_of(const std::map<std::string, double>& bes
         if (at == name.npos) continue;
         const auto first = best_ns.find(name.substr(0, at) + name.substr(name.find('/', at)));
         if (first == best_ns.end()) continue;
-        double& largest = spread[mode_of(name)];
+        double& largest = spread[split(name).mode];
         largest = std::max(largest, std::max(ns, first->second) / std::min(ns, first->second) - 1);
     }
     return spread;
@@ -177,7 +173,7 @@ void Measurer::run(const std::vector<Entry>& entries, const std::function<void(d
     benchmark::RunSpecifiedBenchmarks(&batch);
     benchmark::ClearRegisteredBenchmarks();
 
-    std::erase_if(batch.runs(), [&](const Run& run) { return state_->names.contains(entry_name(run)); });
+    std::erase_if(batch.runs(), [&](const Run& run) { return state_->names.contains(name_of(run)); });
     state_->collector.append(batch);
     for (const Entry& entry : entries) {
         if (!state_->names.insert(entry.name).second) continue;
@@ -192,8 +188,8 @@ Measurement Measurer::finish(const Surroundings& surroundings) {
     std::map<std::string, double> best_ns, median_ns;
     for (const Run& run : state_->collector.runs()) {
         const double ns = run.counters.at("ns_per_sample").value;
-        if (run.aggregate_name == "best") best_ns[entry_name(run)] = ns;
-        if (run.aggregate_name == "median") median_ns[entry_name(run)] = ns;
+        if (run.aggregate_name == "best") best_ns[name_of(run)] = ns;
+        if (run.aggregate_name == "median") median_ns[name_of(run)] = ns;
     }
     Measurement measurement;
     measurement.spread = spread_of(best_ns);
@@ -223,7 +219,7 @@ Measurement Measurer::finish(const Surroundings& surroundings) {
     }
     // The figures that do not vary are what they are in every aggregate, whose own name would make them its own.
     for (Run& run : state_->collector.runs()) {
-        const std::string name = entry_name(run);
+        const std::string name = name_of(run);
         set_name(run);
         for (const auto& [counter, value] : results.at(name)->counters)
             if (!counter.starts_with("ns_per")) run.counters[counter] = value;

@@ -11,10 +11,6 @@ using runtime::Math, runtime::Real;
 
 const std::vector<Mode> memory_and_one_lobe = {Mode::stream, Mode::compute};
 
-bool is_plain_sampler(const Function& function) {
-    return function.kind == Kind::sampler && !function.with_pdf;
-}
-
 bool has_factored(const Function& function) {
     static const std::set<std::string> caps = {
         "vndf_ggx_sample_wm_dupuy2023", "vndf_ggx_sample_wm_benyoub2024", "vndf_ggx_sample_wi_eto2023"};
@@ -120,6 +116,16 @@ std::string to_string(Mode mode) {
         default:
             return "cached_front";
     }
+}
+
+std::string entry_name(const Function& function, const std::string& form, Mode mode) {
+    return fmt::format("{}/{}/{}", function.name, form, to_string(mode));
+}
+
+EntryName split(const std::string& entry) {
+    const std::size_t first = entry.find('/'), last = entry.rfind('/');
+    return {entry.substr(0, first), first == last ? std::string() : entry.substr(first + 1, last - first - 1),
+            entry.substr(last + 1)};
 }
 
 bool is_published(const Function& function) {

@@ -40,6 +40,13 @@ Rung again(const Function& function, std::size_t number);
 // options and layouts.
 int batch_of(const Rung& rung);
 
+// FUNCTION/RUNG/REAL/MODE, the name of an entry; and its parts, of which copies ("copy_40B/stream") have no form.
+std::string entry_name(const Function& function, const std::string& form, Mode mode);
+struct EntryName {
+    std::string function, form, mode;  // form: "strict/float"
+};
+EntryName split(const std::string& entry);
+
 // Those of a quick run: strict float, lean and factored.
 bool is_quick(const Rung& rung);
 

@@ -65,10 +65,6 @@ runtime::ProgramOptions program_options(const Function& function, const Rung& ru
     return options;
 }
 
-std::string entry_name(const Function& function, const std::string& key, Mode mode) {
-    return fmt::format("{}/{}/{}", function.name, key, to_string(mode));
-}
-
 }  // namespace
 
 Session::Session(const runtime::Device& device, const SessionOptions& options)
@@ -87,10 +83,12 @@ const conformance::Table& Session::table(const Function& function, Real real, Si
     return found->second;
 }
 
-// `bytes`, repeated to the size.
-cl::Buffer& Session::repeated(const std::string& key, const std::vector<char>& bytes, std::size_t size) {
+// What `make` makes, repeated to the size; made once for each key.
+cl::Buffer& Session::repeated(const std::string& key, std::size_t size,
+                              const std::function<std::vector<char>()>& make) {
     const auto found = inputs_.find(key);
     if (found != inputs_.end()) return found->second;
+    const std::vector<char> bytes = make();
     const cl::CommandQueue& queue = arithmetic_.queue();
     const cl::Buffer buffer = arithmetic_.buffer(size);
     queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, std::min(size, bytes.size()), bytes.data());
@@ -103,9 +101,7 @@ cl::Buffer& Session::repeated(const std::string& key, const std::vector<char>& b
 cl::Buffer& Session::input(const Function& function, std::size_t index, Real real) {
     const std::string key =
         fmt::format("{} {} {}", function.inputs[index], in_world_space(function), to_string(real));
-    const auto found = inputs_.find(key);
-    if (found != inputs_.end()) return found->second;
-    return repeated(key, to_bytes(table(function, real).columns[index], real), column_bytes);
+    return repeated(key, column_bytes, [&] { return to_bytes(table(function, real).columns[index], real); });
 }
 
 cl::Buffer& Session::cached_input(const Function& function, std::size_t index, Real real, Side side) {
@@ -113,20 +109,22 @@ cl::Buffer& Session::cached_input(const Function& function, std::size_t index, R
     const std::string key =
         fmt::format("{} {} {} cached {}", function.inputs[index], in_world_space(function), to_string(real),
                     side == Side::both ? "both" : "front");
-    const auto found = inputs_.find(key);
-    if (found != inputs_.end()) return found->second;
-    const std::vector<double>& column = table(function, real, side).columns[index];
     const std::size_t rows = cached_groups * runtime::group_size;
-    return repeated(key, to_bytes({column.begin(), column.begin() + rows}, real), rows * size_of(real));
+    return repeated(key, rows * size_of(real), [&] {
+        const std::vector<double>& column = table(function, real, side).columns[index];
+        return to_bytes({column.begin(), column.begin() + rows}, real);
+    });
 }
 
 // Floats of several columns row by row, each row `width` long.
 cl::Buffer& Session::interleaved(const std::string& key, const std::vector<std::vector<double>>& columns,
                                  std::size_t width, std::size_t bytes) {
-    std::vector<double> values(columns.front().size() * width);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-        for (std::size_t i = 0; i < columns[c].size(); ++i) values[i * width + c] = columns[c][i];
-    return repeated(fmt::format("{} {} {}", key, width, bytes), to_bytes(values, Real::f32), bytes);
+    return repeated(fmt::format("{} {} {}", key, width, bytes), bytes, [&] {
+        std::vector<double> values(columns.front().size() * width);
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            for (std::size_t i = 0; i < columns[c].size(); ++i) values[i * width + c] = columns[c][i];
+        return to_bytes(values, Real::f32);
+    });
 }
 
 cl::Buffer& Session::output(std::size_t index) {
@@ -163,8 +161,13 @@ Entry Session::stream_entry(const cl::Kernel& kernel, Real real) {
 
 // As many items, doubled from `items`, as make one launch long beside its own cost.
 Entry Session::long_entry(const cl::Kernel& kernel, std::size_t items, std::size_t most) {
-    launch(kernel, items);
-    while (launch(kernel, items).wall_s < compute_launch_s && items < most) items *= 2;
+    // The first launches may compile and load: of three the best counts.
+    const auto best_s = [&] {
+        double best = INFINITY;
+        for (int i = 0; i < 3; ++i) best = std::min(best, launch(kernel, items).wall_s);
+        return best;
+    };
+    while (best_s() < compute_launch_s && items < most) items *= 2;
     Entry entry;
     entry.samples = static_cast<double>(items);
     entry.launch = [this, kernel, items] { return launch(kernel, items); };
@@ -364,14 +367,7 @@ void Session::require_same_results(const Function& function, const Rung& rung) {
 }
 
 std::size_t Session::judged_rows(const Function& function) const {
-    const bool plain_sampler = function.kind == Kind::sampler && !function.with_pdf;
-    return plain_sampler ? options_.judged_rows : options_.judged_rows / 4;
-}
-
-// What is known of a form before it is timed.
-std::map<std::string, double> Session::figures(const Function& function, const Rung& rung) {
-    if (rung.layout == "readme") return {};  // it has outputs of its own
-    return accuracy(*evaluators_.back(), function, judged_rows(function), options_.alpha, rung.same_map);
+    return is_plain_sampler(function) ? options_.judged_rows : options_.judged_rows / 4;
 }
 
 void Session::add_device(const Function& function, const Rung& rung) {
@@ -388,15 +384,15 @@ void Session::add_device(const Function& function, const Rung& rung) {
     DeviceEvaluator& evaluator = *evaluators_.back();
     if (build_options_.empty()) build_options_ = evaluator.program().build_options();
     if (rung.root == "bench/layouts.cl") require_same_results(function, rung);
-    std::map<std::string, double> known = figures(function, rung);
-    known["build_cold_s"] = cold_s;
-    if (options_.warm_builds) known["build_warm_s"] = warm_s;
-    const double useful =
-        rung.layout == "readme" ? 1 : useful_part(evaluator, function, judged_rows(function), options_.alpha);
+    Accuracy known;
+    if (rung.layout != "readme")  // which has outputs of its own
+        known = accuracy(evaluator, function, judged_rows(function), options_.alpha, rung.same_map);
+    known.figures["build_cold_s"] = cold_s;
+    if (options_.warm_builds) known.figures["build_warm_s"] = warm_s;
     for (const Mode mode : rung.modes) {
         Entry added = entry(function, rung, mode);
-        added.figures = known;
-        added.useful = useful;
+        added.figures = known.figures;
+        added.useful = known.useful;
         if (mode == Mode::stream) {
             if (rung.layout.empty()) added.copy = copy;
             if (rung.key() == "strict/float" && operations(function) > 0) {

@@ -61,7 +61,6 @@ class Session {
     double build(const Function& function, const Rung& rung, const runtime::ProgramOptions& options);
     std::size_t judged_rows(const Function& function) const;
     void require_same_results(const Function& function, const Rung& rung);
-    std::map<std::string, double> figures(const Function& function, const Rung& rung);
 
     Entry entry(const Function& function, const Rung& rung, Mode mode);
     Entry stream_entry(const cl::Kernel& kernel, runtime::Real real);
@@ -79,7 +78,8 @@ class Session {
     cl::Buffer& cached_input(const Function& function, std::size_t index, runtime::Real real, Side side);
     cl::Buffer& interleaved(const std::string& key, const std::vector<std::vector<double>>& columns,
                             std::size_t width, std::size_t bytes);
-    cl::Buffer& repeated(const std::string& key, const std::vector<char>& bytes, std::size_t size);
+    cl::Buffer& repeated(const std::string& key, std::size_t size,
+                         const std::function<std::vector<char>()>& make);
     cl::Buffer& output(std::size_t index);
     std::shared_ptr<std::vector<float>> cpp_array(const Function& function, std::size_t scalar, bool compute);
     Timing launch(const cl::Kernel& kernel, std::size_t items);

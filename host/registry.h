@@ -76,6 +76,11 @@ const Function* find_function(std::string_view name);
 // Up to `count` registered names nearest to `name` (edit distance), nearest first.
 std::vector<std::string> nearest_names(std::string_view name, std::size_t count = 3);
 
+// A sampler in the form that returns the direction alone.
+inline bool is_plain_sampler(const Function& function) {
+    return function.kind == Kind::sampler && !function.with_pdf;
+}
+
 // Whether the distribution is exponential in the slopes, so that errors grow with the exponent.
 bool has_exponent(Ndf);
 

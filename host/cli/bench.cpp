@@ -160,12 +160,11 @@ std::vector<bench::Mode> wanted_modes(const Bench& options, const bench::Rung& r
 }
 
 bool is_wanted(const Bench& options, const Function& function, const bench::Rung& rung) {
-    static const std::set<std::string> advised = {"strict", "strict_again", "builtin",  "native",
-                                                  "lean",   "factored",     "published"};
-    const bool sampler = function.kind == Kind::sampler && !function.with_pdf;
+    static const std::set<std::string> advised = {"builtin", "native", "published"};
+    const bool sampler = is_plain_sampler(function);
     if (options.advise)
         return sampler && function.arguments == "WO_ALPHA_U" && rung.real == Real::f32 &&
-               advised.contains(rung.name);
+               (bench::is_quick(rung) || advised.contains(rung.name));
     // What was asked for by name is measured, quick or not.
     return !options.quick || (bench::is_quick(rung) && (sampler || !options.only.empty()));
 }

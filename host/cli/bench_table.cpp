@@ -12,16 +12,6 @@ namespace {
 
 using bench::Result;
 
-// FUNCTION/RUNG/REAL/MODE, or copy_40B/stream.
-struct Name {
-    std::string function, rung, mode;
-};
-Name split(const std::string& name) {
-    const std::size_t first = name.find('/'), last = name.rfind('/');
-    return {name.substr(0, first), first == last ? std::string() : name.substr(first + 1, last - first - 1),
-            name.substr(last + 1)};
-}
-
 // One form of a function: its entries by mode.
 struct Row {
     std::string function, rung;
@@ -32,9 +22,9 @@ std::vector<Row> rows_of(const std::vector<Result>& results) {
     std::vector<Row> rows;
     std::map<std::string, std::size_t> known;
     for (const Result& result : results) {
-        const Name name = split(result.name);
-        const auto [at, is_new] = known.try_emplace(name.function + '/' + name.rung, rows.size());
-        if (is_new) rows.push_back({name.function, name.rung, {}});
+        const bench::EntryName name = bench::split(result.name);
+        const auto [at, is_new] = known.try_emplace(name.function + '/' + name.form, rows.size());
+        if (is_new) rows.push_back({name.function, name.form, {}});
         rows[at->second].modes[name.mode] = &result;
     }
     std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
@@ -132,9 +122,8 @@ const Row* fastest(const std::vector<Row>& rows) {
     const Row* best = nullptr;
     for (const Row& row : rows) {
         const Function* f = find_function(row.function);
-        if (row.rung != "strict/float" || !f || f->kind != Kind::sampler || f->with_pdf ||
-            f->result != "WM" || f->method != Method::exact || !f->arguments.starts_with("WO_") ||
-            !row.modes.contains("cached"))
+        if (row.rung != "strict/float" || !f || !is_plain_sampler(*f) || f->result != "WM" ||
+            f->method != Method::exact || !f->arguments.starts_with("WO_") || !row.modes.contains("cached"))
             continue;
         if (!best || row.modes.at("cached")->best_ns < best->modes.at("cached")->best_ns) best = &row;
     }
@@ -186,7 +175,8 @@ void print_comparison(const std::vector<Result>& results, const std::vector<Resu
     put("\nover {} (another run: its machine may have been busier)\n", baseline_name);
     for (const Result& r : results)
         if (before.contains(r.name))
-            put("  {:78} {:>8}\n", r.name, ratio(r.best_ns / before[r.name], spread, split(r.name).mode));
+            put("  {:78} {:>8}\n", r.name,
+                ratio(r.best_ns / before[r.name], spread, bench::split(r.name).mode));
 }
 
 void print_advice(const std::vector<bench::Advice>& all, const bench::Demand& demand,

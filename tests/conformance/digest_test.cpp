@@ -143,7 +143,8 @@ TEST_CASE("a kernel with an invalid access and a data race", "[.planted]") {
     program.queue().finish();
 }
 
-TEST_CASE("a device that flushes subnormal numbers has the same bits, and next to nothing to be excused for") {
+TEST_CASE(
+    "a device that flushes subnormal numbers has the same bits, and next to nothing to be excused for") {
     // The host build stands for a device that flushes: exempt rows take its results, whatever the device returns.
     conformance::BitsOptions options = quick;
     runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);

@@ -8,7 +8,7 @@ int main() {
     const vndf_float2 u = {0.25f, 0.75f};  // uniform in [0, 1)
     const vndf_float3 wm = vndf_ggx_sample_wm_dupuy2023(wo, alpha, u);
     const vndf_float3 wi = vndf_reflect(wo, wm);
-    const float weight = wi.z > 0 ? vndf_ggx_g2(wo, wi, alpha) / vndf_ggx_g1(wo, alpha) : 0;
+    const float weight = wi.z > 0 ? vndf_ggx_weight(wo, wi, alpha) : 0;
     const float pdf = vndf_ggx_pdf_wi(wo, wi, alpha);
     std::printf("wi = (%.6f, %.6f, %.6f), weight %.6f, density %.6f\n", wi.x, wi.y, wi.z, weight, pdf);
 }

@@ -164,7 +164,7 @@ std::string without_lobe(const std::string& name) {
 std::vector<const Function*> samplers() {
     std::vector<const Function*> result;
     for (const Function& f : functions())
-        if (f.kind == Kind::sampler && !f.with_pdf) result.push_back(&f);
+        if (is_plain_sampler(f)) result.push_back(&f);
     return result;
 }
 

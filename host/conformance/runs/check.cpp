@@ -29,10 +29,6 @@ bool matches(std::string_view glob, std::string_view name) {
            matches(glob.substr(1), name.substr(1));
 }
 
-bool is_sampled(const Function& function) {
-    return function.kind == Kind::sampler && !function.with_pdf;
-}
-
 // The directions of a lobe: what the device draws while the host judges the lobe before.
 template <class T>
 struct Batch {
@@ -116,7 +112,7 @@ class Run {
         report_.samples = std::size_t{1} << (options.quick ? 18 : 20);
         report_.family_rate = family_rate;
         for (const Function* function : selected) {
-            if (is_sampled(*function))
+            if (is_plain_sampler(*function))
                 report_.tests += lobes(*function, options.quick).size() * tests_per_lobe(*function);
             work_total_ += work(*function);
         }
@@ -147,7 +143,8 @@ class Run {
   private:
     // In lobes.
     double work(const Function& function) const {
-        return 2 + (is_sampled(function) ? static_cast<double>(lobes(function, options_.quick).size()) : 0);
+        return 2 +
+               (is_plain_sampler(function) ? static_cast<double>(lobes(function, options_.quick).size()) : 0);
     }
 
     void compare_bits(const std::vector<const Function*>& selected) {
@@ -163,7 +160,7 @@ class Run {
             std::move(more.begin(), more.end(), std::back_inserter(all));
         };
         if (function.kind == Kind::density) add(check_normalisation(evaluator_, function, pointwise_));
-        if (is_sampled(function)) {
+        if (is_plain_sampler(function)) {
             add(measure_bias(evaluator_, function));
             evaluator_.input_real() == Real::f32 ? statistics<float>(function, all)
                                                  : statistics<double>(function, all);

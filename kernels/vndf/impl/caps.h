@@ -1,4 +1,4 @@
-// Spherical caps: the polar angle of the stretched view direction.
+// The polar angle of the stretched view direction.
 #ifndef VNDF_IMPL_CAPS_H
 #define VNDF_IMPL_CAPS_H
 
