@@ -72,6 +72,12 @@ std::vector<Function> read_functions() {
         VNDF_ERRORS(unit, in_float, in_double)                             \
         all.push_back(f);                                                  \
     }
+#define VNDF_PAIR(name, ndf, arguments, result, unit, in_float, in_double, source) \
+    {                                                                              \
+        VNDF_ROW(Kind::pair, name, ndf, arguments, result, source)                 \
+        VNDF_ERRORS(unit, in_float, in_double)                                     \
+        all.push_back(f);                                                          \
+    }
 #define VNDF_INVERSE(name, ndf, arguments, sampler_, unit, in_float, in_double, source) \
     {                                                                                   \
         VNDF_ROW(Kind::inverse, name, ndf, arguments, U, source)                        \
@@ -177,6 +183,8 @@ std::string_view to_string(Kind kind) {
             return "density";
         case Kind::term:
             return "term";
+        case Kind::pair:
+            return "pair";
         case Kind::inverse:
             return "inverse";
         case Kind::geometry:

@@ -8,7 +8,7 @@
 namespace vndf {
 
 enum class Ndf { ggx, beckmann, any };
-enum class Kind { sampler, density, term, inverse, geometry };
+enum class Kind { sampler, density, term, pair, inverse, geometry };
 enum class Method { exact, approximate };
 enum class Domain { sphere, upper };
 // What a relative error is counted in, beside epsilon: 1, 1 + 2 q with the exponent q of a Beckmann function, or 1 + the
@@ -39,7 +39,7 @@ struct Function {
     std::string arguments;  // the registry's token, e.g. "WO_ALPHA_U"
     std::string signature;  // "wo, alpha, u"
     std::string lobe;       // of one that takes a lobe, what sets it up
-    std::string result;     // "WM", "WI", "VALUE" or "U"
+    std::string result;     // "WM", "WI", "VALUE", "PDF_BOTH", "EVAL_PDF" or "U"
     std::string source;
     Ndf ndf = Ndf::any;
     Kind kind = Kind::term;

@@ -28,6 +28,11 @@ TEST_CASE("a function takes the scalars that its arguments stand for, in their o
         {"LOBE_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
         {"LOBE_WI", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
         {"LOBE_WM", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
+        {"LOBE", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y"}},
+        {"BECKMANN_LOBE", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y"}},
+        {"BECKMANN_LOBE_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
+        {"BECKMANN_LOBE_WI", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
+        {"BECKMANN_LOBE_WM", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
         {"COS_THETA_X", {"cos_theta", "x"}},
         {"COS_THETA_U1", {"cos_theta", "u1"}},
         {"WO_WM", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z"}},
@@ -44,13 +49,16 @@ TEST_CASE("a function takes the scalars that its arguments stand for, in their o
     CHECK(used.size() == scalars.size());
 }
 
-TEST_CASE("a function returns a direction or a value, and with_pdf a density behind it") {
+TEST_CASE("a function returns a direction, a value or two, and with_pdf a density behind it") {
     for (const Function& f : functions()) {
         CAPTURE(f.name);
         Names expected = {"value"};
         if (f.result == "WM") expected = {"wm_x", "wm_y", "wm_z"};
         if (f.result == "WI") expected = {"wi_x", "wi_y", "wi_z"};
         if (f.result == "U") expected = {"u1", "u2"};
+        if (f.result == "PDF_BOTH") expected = {"pdf", "pdf_back"};
+        if (f.result == "EVAL_PDF") expected = {"value", "pdf"};
+        CHECK((f.kind == Kind::pair) == (f.result == "PDF_BOTH" || f.result == "EVAL_PDF"));
         if (f.with_pdf) expected.push_back("pdf");
         CHECK(f.outputs == expected);
         CHECK(f.name.ends_with("_with_pdf") == f.with_pdf);

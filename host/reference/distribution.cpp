@@ -58,7 +58,9 @@ const Distribution::Known& Distribution::known(std::string_view density) {
         {"vndf_ggx_pdf_wi_conic2026_lobe", Kind::conic, wi, ggx_conic2026<double>},
         {"vndf_ggx_pdf_wm_walter2007", Kind::ggx, wm_plain, ggx_walter2007<double>},
         {"vndf_beckmann_pdf_wm", Kind::beckmann, wm, beckmann_jakob2014<double>},
+        {"vndf_beckmann_pdf_wm_lobe", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wi", Kind::beckmann, wi, beckmann_reflection},
+        {"vndf_beckmann_pdf_wi_lobe", Kind::beckmann, wi, beckmann_reflection},
         {"vndf_beckmann_pdf_wm_walter2007", Kind::beckmann, wm_plain, beckmann_walter2007<double>},
     };
     const auto at =

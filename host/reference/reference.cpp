@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "reference/terms.h"
 
@@ -131,6 +132,8 @@ struct Entry {
 #define VNDF_REFERENCE_SAMPLERS(X)                                                   \
     X(vndf_ggx_sample_wm_heitz_deon2014, ggx_heitz_deon2014, wo_alpha_u)             \
     X(vndf_ggx_sample_wm_heitz_deon2014_exact, ggx_heitz_deon2014_exact, wo_alpha_u) \
+    X(vndf_ggx_sample_wm_heitz_deon2014_lobe, ggx_heitz_deon2014, wo_alpha_u)             \
+    X(vndf_ggx_sample_wm_heitz_deon2014_exact_lobe, ggx_heitz_deon2014_exact, wo_alpha_u) \
     X(vndf_ggx_sample_wm_heitz2017, ggx_heitz2017, wo_alpha_u)                       \
     X(vndf_ggx_sample_wm_heitz2017_lobe, ggx_heitz2017, wo_alpha_u)                  \
     X(vndf_ggx_sample_wm_heitz2018, ggx_heitz2018, wo_alpha_u)                       \
@@ -148,6 +151,8 @@ struct Entry {
     X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                        \
     X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)   \
     X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)             \
+    X(vndf_beckmann_sample_wm_heitz_deon2014_lobe, beckmann_heitz_deon2014, wo_alpha_u)   \
+    X(vndf_beckmann_sample_wm_jakob2014_lobe, beckmann_jakob2014, wo_alpha_u)             \
     X(vndf_beckmann_sample_wm_walter2007, beckmann_walter2007, alpha_u)
 
 #define VNDF_CONDITION(name, map, layout)               \
@@ -184,6 +189,12 @@ template <class R, Vec3<R> (*function)(Reader<R>)>
 void evaluate_vector(const R* in, R* out, Precision precision) {
     const Vec3<R> w = function({in, precision});
     out[0] = w.x, out[1] = w.y, out[2] = w.z;
+}
+
+template <class R, std::pair<R, R> (*pair)(Reader<R>)>
+void evaluate_pair(const R* in, R* out, Precision precision) {
+    const std::pair<R, R> p = pair({in, precision});
+    out[0] = finite(p.first, precision), out[1] = finite(p.second, precision);
 }
 
 template <class N, class R>
@@ -233,6 +244,16 @@ struct Terms {
         const Vec3<R> wo = in.vector(), wi = in.vector();
         const R ax = in.alpha(), ay = in.alpha();
         return reference::pdf_wi<N>(wo, wi, ax, ay);
+    }
+    static std::pair<R, R> pdf_wi_both(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return {reference::pdf_wi<N>(wo, wi, ax, ay), reference::pdf_wi<N>(wi, wo, ax, ay)};
+    }
+    static std::pair<R, R> eval_pdf(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), wi = in.vector();
+        const R ax = in.alpha(), ay = in.alpha();
+        return {brdf<N>(wo, wi, ax, ay), reference::pdf_wi<N>(wo, wi, ax, ay)};
     }
     static R pdf_wm_walter2007(Reader<R> in) { return ndf(in) * in.in[2]; }
 };
@@ -329,12 +350,17 @@ constexpr Entry<R> entries[] = {
 #define VNDF_BOTH(term) VNDF_ENTRIES(ggx, Ggx, term) VNDF_ENTRIES(beckmann, Beckmann, term)
     VNDF_BOTH(ndf) VNDF_BOTH(p22) VNDF_BOTH(lambda) VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2)
     VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
-#undef VNDF_BOTH
-    VNDF_ENTRIES(ggx, Ggx, weight)
+    VNDF_BOTH(weight)
 #undef VNDF_ENTRIES
-    {"vndf_ggx_weight_lobe", evaluate_term<R, Terms<Ggx, R>::weight>},
-    {"vndf_ggx_pdf_wm_lobe", evaluate_term<R, Terms<Ggx, R>::pdf_wm>},
-    {"vndf_ggx_pdf_wi_lobe", evaluate_term<R, Terms<Ggx, R>::pdf_wi>},
+#define VNDF_ENTRIES(ndf, N, term) {"vndf_" #ndf "_" #term "_lobe", evaluate_term<R, Terms<N, R>::term>},
+    VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2) VNDF_BOTH(weight) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi)
+#undef VNDF_ENTRIES
+#define VNDF_ENTRIES(ndf, N, pair)                                              \
+    {"vndf_" #ndf "_" #pair, evaluate_pair<R, Terms<N, R>::pair>},              \
+    {"vndf_" #ndf "_" #pair "_lobe", evaluate_pair<R, Terms<N, R>::pair>},
+    VNDF_ENTRIES(ggx, Ggx, pdf_wi_both) VNDF_BOTH(eval_pdf)
+#undef VNDF_ENTRIES
+#undef VNDF_BOTH
     {"vndf_ggx_pdf_wi_eto2023_lobe", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},
     {"vndf_ggx_pdf_wi_eto2023_polygon_lobe", evaluate_term<R, ggx_pdf_wi_bounded_of<R, polygon_bound<R>>>},
     {"vndf_ggx_pdf_wi_eto2023", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},

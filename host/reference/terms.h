@@ -122,6 +122,16 @@ R pdf_wi(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay) {
     return h.z > 0 && !nothing_visible(v) ? R(N::template visible<R>(h, v) / 4) : R(0);
 }
 
+// D(h) G2 / (4 wo.z wi.z): the quotient of the cosines and 1 + Lambda(wo) + Lambda(wi), which is infinite at the horizon.
+template <class N, class R>
+R brdf(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay) {
+    const View<R> o = view(wo, ax, ay), i = view(wi, ax, ay);
+    const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
+    if (!(wo.z > 0 && wi.z > 0)) return R(0);
+    const R wide = 4 * wo.z * wi.z * (1 + lambda<N>(o) + lambda<N>(i));
+    return N::template ndf<R>(h, ax, ay) / wide;
+}
+
 // o_z + k cos(theta) of the stretched reflection o, and its change when each component of wi moves by 1: with
 // h = wo + wi and q = |A^-1 h|^2, o_z + cos(theta) = 2 (wo . h) h_z / (q t), wo . h = |h|^2 / 2.
 template <class R>

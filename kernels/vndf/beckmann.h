@@ -12,6 +12,7 @@
 #ifndef VNDF_BECKMANN_H
 #define VNDF_BECKMANN_H
 
+#include "beckmann_lobe.h"
 #include "impl/beckmann_slopes.h"
 #include "impl/beckmann_terms.h"
 
@@ -59,8 +60,19 @@ VNDF_FN VNDF_REAL vndf_beckmann_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8 eps (1 + 2 q); double 9.
 //     q = a^2 below the horizon, 0 above it.
 VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL unseen = vndf_impl_beckmann_unseen(vndf_impl_beckmann_l(w, alpha), w.z);
-    return vndf_impl_finite(unseen + vndf_impl_max(w.z, VNDF_R(0.0))) + vndf_impl_zero(w.x, w.y, w.z);
+    return vndf_impl_beckmann_sigma(vndf_beckmann_lobe_of(w, alpha));
+}
+
+// The same of a lobe's wo.
+// Accuracy: 8 eps (1 + 2 q); double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_sigma_lobe(struct vndf_beckmann_lobe lobe) {
+    return vndf_impl_beckmann_sigma(lobe);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_beckmann_g1(struct vndf_beckmann_lobe lobe) {
+    int above = lobe.wo_z > VNDF_R(0.0);
+    VNDF_REAL sigma = above ? vndf_impl_beckmann_front_sigma(lobe) : VNDF_R(1.0);
+    return above ? vndf_impl_min(lobe.wo_z / sigma, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -69,27 +81,37 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 for w.z <= 0.
 // Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    return w.z > VNDF_R(0.0) ? vndf_impl_min(w.z / vndf_beckmann_sigma(w, alpha), VNDF_R(1.0)) : VNDF_R(0.0);
+    return vndf_impl_beckmann_g1(vndf_beckmann_lobe_of(w, alpha));
+}
+
+// The same of a lobe's wo.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_g1_lobe(struct vndf_beckmann_lobe lobe) {
+    return vndf_impl_beckmann_g1(lobe);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_beckmann_g2(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0), swap = lobe.wo_z > wi.z;
+    VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
+    VNDF_REAL low = swap ? wi.z : lobe.wo_z, high = swap ? lobe.wo_z : wi.z;
+    // The smaller cosine is divided first, so that nothing underflows.
+    VNDF_REAL g2 = high * (low * VNDF_R(1099511627776.0) / (above ? both : VNDF_R(1.0)));
+    return above ? vndf_impl_share(g2) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
-// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
+// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)), over and under times both cosines.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8 eps; double 9.
 VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    // wi's terms are made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
-    // Next to nothing counts as little: it is slow where it is no normal number.
-    VNDF_REAL little = VNDF_EPSILON * VNDF_EPSILON;
-    VNDF_REAL lambda_o = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wo, alpha), little);
-    VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
-                                    lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL lambda_i = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wi, alpha_i), little),
-              quarter = VNDF_R(0.25);
-    // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
-    // exchanged.
-    VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(quarter / sum, VNDF_R(1.0)) : VNDF_R(0.0);
+    return vndf_impl_beckmann_g2(vndf_beckmann_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_g2_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_beckmann_g2(lobe, wi);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -98,7 +120,41 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
+    struct vndf_beckmann_lobe lobe = vndf_beckmann_lobe_of(wo, alpha);
+    return vndf_impl_beckmann_g1(lobe) * vndf_impl_beckmann_g1(vndf_impl_beckmann_other(lobe, wi));
+}
+
+// G2 / G1(wo) is i sigma(wo) over the sum of vndf_impl_beckmann_both.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_weight(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+    VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
+    VNDF_REAL seen = wi.z * VNDF_R(1099511627776.0) * vndf_impl_beckmann_front_sigma(lobe);
+    VNDF_REAL weight = seen / (above ? both : VNDF_R(1.0));
+    return above ? vndf_impl_share(weight) : VNDF_R(0.0);
+}
+
+// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_beckmann_pdf_wi of a perfectly conducting mirror.
+// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)).
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_beckmann_weight(vndf_beckmann_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_weight_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_beckmann_weight(lobe, wi);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_beckmann_pdf_wm(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wm) {
+    VNDF_REAL cosine = vndf_impl_dot(lobe.wo_x, lobe.wo_y, lobe.wo_z, wm.x, wm.y, wm.z);
+    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rcp = VNDF_R(1.0) / z;
+    int faces = wm.z > VNDF_R(0.0) && cosine > VNDF_R(0.0);
+    struct vndf_impl_power pdf = vndf_impl_beckmann_visible(lobe, wm.x * rcp, wm.y * rcp, z, cosine, 0,
+                                                            rcp * rcp, faces ? cosine : VNDF_R(0.0));
+    return faces ? vndf_impl_finite(vndf_impl_times_power(pdf.part, pdf.exponent)) : VNDF_R(0.0);
 }
 
 // The distribution of visible normals: the density of every vndf_beckmann_sample_wm_* but walter2007.
@@ -109,11 +165,19 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_
 // return: per steradian of wm; 0 for wm.z <= 0 or wo . wm <= 0.
 // Accuracy: 12 eps (1 + 2 q); double 13.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 alpha) {
-    VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z);
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, wm.x, wm.y, z, cosine, 0, rise,
-                                               vndf_impl_max(cosine, VNDF_R(0.0)), alpha);
-    return wm.z > VNDF_R(0.0) && cosine > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
+    return vndf_impl_beckmann_pdf_wm(vndf_beckmann_lobe_of(wo, alpha), wm);
+}
+
+// The same for many wm and one wo and alpha.
+// Accuracy: 12 eps (1 + 2 q); double 13.
+VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wm) {
+    return vndf_impl_beckmann_pdf_wm(lobe, wm);
+}
+
+VNDF_FN VNDF_REAL vndf_impl_beckmann_pdf_wi(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    struct vndf_impl_power pdf = vndf_impl_beckmann_half(lobe, wi, VNDF_R(0.25));
+    VNDF_REAL result = vndf_impl_finite(vndf_impl_times_power(pdf.part, pdf.exponent));
+    return lobe.wo_z + wi.z > VNDF_R(0.0) ? result : VNDF_R(0.0);
 }
 
 // The density of the reflection of wo about a visible normal.
@@ -125,18 +189,47 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use a sampler's _with_pdf form
 //     there.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
-    // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
-    struct vndf_impl_pair dot = vndf_impl_dot_pair(wo.x, wo.y, wo.z, x, y, z);
-    VNDF_REAL low = VNDF_FMA(
-        wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
-        VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
-    VNDF_REAL cosine = dot.head + (dot.tail + low);
-    VNDF_REAL height = vndf_impl_beckmann_height(z), tx = x / height, ty = y / height;
-    VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, x, y, height, z > VNDF_R(0.0) ? cosine : VNDF_R(0.0), 1,
-                                               rise, VNDF_R(0.25), alpha);
-    return z > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
+    return vndf_impl_beckmann_pdf_wi(vndf_beckmann_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha. Of the density the other way, of wo seen from wi, that is of wi's lobe.
+// Accuracy: 15 eps (1 + 2 q); double 14.
+VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_beckmann_pdf_wi(lobe, wi);
+}
+
+// The value is the density times sigma(wo) / (o i / G2): powers of two apart, since the density may leave the range of
+// numbers where the value does not.
+VNDF_FN VNDF_REAL2 vndf_impl_beckmann_eval_pdf(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    struct vndf_impl_power pdf = vndf_impl_beckmann_half(lobe, wi, VNDF_R(0.25));
+    VNDF_REAL density = vndf_impl_finite(vndf_impl_times_power(pdf.part, pdf.exponent));
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+    VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
+    VNDF_REAL seen = VNDF_R(1099511627776.0) * vndf_impl_beckmann_front_sigma(lobe);
+    struct vndf_impl_power ratio = vndf_impl_split(above ? seen / both : VNDF_R(1.0));
+    VNDF_REAL value =
+        vndf_impl_finite(vndf_impl_times_power(pdf.part * ratio.part, pdf.exponent + ratio.exponent));
+    return VNDF_MAKE2(above ? value : VNDF_R(0.0),
+                      lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
+}
+
+// A reflection's value and density from common terms.
+// Source: Heitz 2014: the value is D(h) G2 / (4 o i), o = wo.z, i = wi.z, h = wo + wi; the density is that of
+//     vndf_beckmann_pdf_wi, D(h) / (4 sigma(wo)).
+// wo, wi: unit vectors, local frame, anywhere on the sphere.
+// return: (value, density). The value is that of the BRDF, without the cosine of wi and without a Fresnel factor, per
+//     steradian; 0 unless both are above the horizon. The density is per steradian of wi. value * wi.z / density is
+//     vndf_beckmann_weight.
+// Accuracy: 15 eps (1 + 2 q); double 14.
+//     Below alpha = 1e-2 the rounding of wi moves both by more than that.
+VNDF_FN VNDF_REAL2 vndf_beckmann_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_beckmann_eval_pdf(vndf_beckmann_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 15 eps (1 + 2 q); double 14.
+VNDF_FN VNDF_REAL2 vndf_beckmann_eval_pdf_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_beckmann_eval_pdf(lobe, wi);
 }
 
 // The density of the plain NDF sampler: D(wm) wm.z.

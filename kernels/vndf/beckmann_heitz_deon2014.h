@@ -6,7 +6,7 @@
 #define VNDF_BECKMANN_HEITZ_DEON2014_H
 
 #include "beckmann.h"
-#include "impl/beckmann_slopes.h"
+#include "impl/beckmann_lobe.h"
 
 VNDF_BEGIN
 
@@ -66,17 +66,23 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     return fold;
 }
 
-VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha,
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(struct vndf_beckmann_lobe lobe,
                                                                   VNDF_REAL2 u) {
-    // Below the horizon, where this is not used, as above it: no quotient of it overflows.
-    struct vndf_impl_beckmann_frame f =
-        vndf_impl_beckmann_frame_of(VNDF_MAKE3(wo.x, wo.y, vndf_impl_abs(wo.z)), alpha);
-    struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(f.slopes, vndf_impl_u(u.x), vndf_impl_u(u.y));
+    // Below the horizon, where this is not used, as on it: no quotient of it overflows.
+    struct vndf_impl_incidence_slopes i = lobe.slopes;
+    int front = i.front;
+    i.front = 1;
+    i.steep = front ? i.steep : VNDF_R(0.0);
+    i.a = front ? i.a : VNDF_R(0.0);
+    i.gaussian = front ? i.gaussian : VNDF_R(1.0);
+    i.area = front ? i.area : VNDF_R(0.5) * VNDF_1_SQRT_PI;
+    lobe.slopes = i;
+    struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(i, vndf_impl_u(u.x), vndf_impl_u(u.y));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it. The product is at least that of the clamp:
     // rounding may bring a used number to 0.
     VNDF_REAL product = vndf_impl_max(r.product, VNDF_U_MIN);
     VNDF_REAL across = r.difference * vndf_impl_erfinv_ratio(VNDF_R(4.0) * product);
-    return vndf_impl_where(wo.z >= VNDF_R(0.0), vndf_impl_beckmann_normal(f, r.slope, across));
+    return vndf_impl_where(front, vndf_impl_beckmann_normal(lobe, r.slope, across));
 }
 
 // A visible normal by the published slope sampler. Two values of u give each normal: its density is exact, but the map
@@ -88,13 +94,25 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(VNDF_REAL3 wo,
 // return: unit vector wm, wm.z >= 0, with density vndf_beckmann_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_beckmann_heitz_deon2014(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_beckmann_heitz_deon2014(vndf_beckmann_lobe_of(wo, alpha), u));
 }
 
 // The same; w: its density per steradian of wm, from the sampler's own terms.
 VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha,
                                                                    VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_beckmann_heitz_deon2014(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_beckmann_heitz_deon2014(vndf_beckmann_lobe_of(wo, alpha), u));
+}
+
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number); double 1.
+VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_heitz_deon2014_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_beckmann_heitz_deon2014(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_heitz_deon2014_lobe_with_pdf(struct vndf_beckmann_lobe lobe,
+                                                                        VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_beckmann_heitz_deon2014(lobe, u));
 }
 
 VNDF_END

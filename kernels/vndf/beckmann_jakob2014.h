@@ -7,15 +7,14 @@
 #define VNDF_BECKMANN_JAKOB2014_H
 
 #include "beckmann.h"
-#include "impl/beckmann_slopes.h"
+#include "impl/beckmann_lobe.h"
 
 VNDF_BEGIN
 
-VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    struct vndf_impl_beckmann_frame f = vndf_impl_beckmann_frame_of(wo, alpha);
-    struct vndf_impl_visible_slope r = vndf_impl_slope_of_mass(f.slopes, vndf_impl_u(u.x));
+VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(struct vndf_beckmann_lobe lobe, VNDF_REAL2 u) {
+    struct vndf_impl_visible_slope r = vndf_impl_slope_of_mass(lobe.slopes, vndf_impl_u(u.x));
     // The slope across is erfinv(2 u2 - 1); the normal leans against it.
-    return vndf_impl_beckmann_normal(f, r, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
+    return vndf_impl_beckmann_normal(lobe, r, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
 }
 
 // A visible normal by inversion of the visible slope distribution.
@@ -27,12 +26,24 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(VNDF_REAL3 wo, VNDF
 // return: unit vector wm, wm.z >= 0, with density vndf_beckmann_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1.2 behind the surface; double 1, 1.2.
 VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_jakob2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_beckmann_jakob2014(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_beckmann_jakob2014(vndf_beckmann_lobe_of(wo, alpha), u));
 }
 
 // The same; w: its density per steradian of wm, from the sampler's own terms.
 VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_jakob2014_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_beckmann_jakob2014(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_beckmann_jakob2014(vndf_beckmann_lobe_of(wo, alpha), u));
+}
+
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1.2 behind the surface; double 1, 1.2.
+VNDF_FN VNDF_REAL3 vndf_beckmann_sample_wm_jakob2014_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_beckmann_jakob2014(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_beckmann_sample_wm_jakob2014_lobe_with_pdf(struct vndf_beckmann_lobe lobe,
+                                                                   VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_beckmann_jakob2014(lobe, u));
 }
 
 VNDF_END

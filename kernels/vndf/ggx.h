@@ -62,6 +62,13 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
 
+// Infinite only where an argument is out of the domain; NaN stays.
+VNDF_FN VNDF_REAL vndf_impl_ggx_sigma(struct vndf_ggx_lobe lobe) {
+    VNDF_REAL height = vndf_impl_min(lobe.axis.height, VNDF_REAL_MAX),
+              weight = vndf_impl_min(lobe.axis.weight, VNDF_REAL_MAX);
+    return height * VNDF_R(3.7252902984619140625e-09) / weight;
+}
+
 // The projected area of the microsurface seen from w.
 // Source: Dupuy & Benyoub, Sampling Visible GGX Normals with Spherical Caps, 2023, Equation 4, stretched.
 // w: unit vector, local frame, anywhere on the sphere.
@@ -70,9 +77,22 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // Accuracy: 8 eps; double 11.
 //     Also below the horizon.
 VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL twice_sigma =
-        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
-    return VNDF_R(0.5) * twice_sigma;
+    return vndf_impl_ggx_sigma(vndf_ggx_lobe_of(w, alpha));
+}
+
+// The same of a lobe's wo.
+// Accuracy: 8 eps; double 11.
+VNDF_FN VNDF_REAL vndf_ggx_sigma_lobe(struct vndf_ggx_lobe lobe) {
+    return vndf_impl_ggx_sigma(lobe);
+}
+
+// Infinite only where an argument is out of the domain; NaN stays.
+VNDF_FN VNDF_REAL vndf_impl_ggx_g1(struct vndf_ggx_lobe lobe) {
+    VNDF_REAL z = vndf_impl_min(lobe.axis.z, VNDF_R(0.25) * VNDF_REAL_MAX),
+              height = vndf_impl_min(lobe.axis.height, VNDF_REAL_MAX);
+    int above = lobe.wo_z > VNDF_R(0.0);
+    VNDF_REAL g1 = VNDF_R(2.0) * z / (above ? height : VNDF_R(1.0));
+    return above ? vndf_impl_min(g1, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -81,28 +101,50 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; 0 for w.z <= 0.
 // Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_ggx_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
-    VNDF_REAL twice_sigma =
-        vndf_impl_ggx_twice_sigma(w.x, w.y, w.z, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y));
-    return w.z > VNDF_R(0.0) ? vndf_impl_min(VNDF_R(2.0) * w.z / twice_sigma, VNDF_R(1.0)) : VNDF_R(0.0);
+    return vndf_impl_ggx_g1(vndf_ggx_lobe_of(w, alpha));
+}
+
+// The same of a lobe's wo.
+// Accuracy: 7 eps; double 7.
+VNDF_FN VNDF_REAL vndf_ggx_g1_lobe(struct vndf_ggx_lobe lobe) {
+    return vndf_impl_ggx_g1(lobe);
+}
+
+// The length t of wi after the stretch, times 2^27.
+VNDF_FN VNDF_REAL vndf_impl_ggx_stretched(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
+    // Made dependent on wo's root, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    VNDF_REAL kz = wi.z * (lobe.axis.t < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(134217728.0));
+    return VNDF_SQRT(VNDF_FMA(kz, kz, VNDF_FMA(kx, kx, ky * ky)));
+}
+
+// t_o i + t_i o times 2^27, with the same bits for wo and wi exchanged.
+VNDF_FN VNDF_REAL vndf_impl_ggx_both(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return lobe.axis.t * wi.z + vndf_impl_ggx_stretched(lobe, wi) * lobe.wo_z;
+}
+
+VNDF_FN VNDF_REAL vndf_impl_ggx_g2(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL both = vndf_impl_ggx_both(lobe, wi);
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0), swap = lobe.wo_z > wi.z;
+    VNDF_REAL low = swap ? wi.z : lobe.wo_z, high = swap ? lobe.wo_z : wi.z;
+    VNDF_REAL g2 = high * (low * VNDF_R(268435456.0) / (above ? both : VNDF_R(1.0)));
+    return above ? vndf_impl_share(g2) : VNDF_R(0.0);
 }
 
 // Height-correlated masking and shadowing of a reflection.
 // Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)) = 2 o i / (t_o i + t_i o), o = wo.z,
-//     i = wi.z, divided by the larger cosine so that nothing underflows.
+//     i = wi.z, the smaller cosine divided first so that nothing underflows.
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_ggx_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
-    struct vndf_impl_view o = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
-    struct vndf_impl_view i = vndf_impl_view_of(alpha_x * wi.x, alpha_y * wi.y, wi.z);
-    int swap = wo.z > wi.z;
-    VNDF_REAL low = vndf_impl_max(swap ? wi.z : wo.z, VNDF_R(0.0)), high = swap ? wo.z : wi.z;
-    VNDF_REAL t_low = vndf_impl_min(swap ? i.r : o.r, VNDF_R(0.25) * VNDF_REAL_MAX),
-              t_high = vndf_impl_min(swap ? o.r : i.r, VNDF_R(0.25) * VNDF_REAL_MAX);
-    VNDF_REAL g2 =
-        VNDF_R(2.0) * low / VNDF_FMA(t_high, low / (high > VNDF_R(0.0) ? high : VNDF_R(1.0)), t_low);
-    return low > VNDF_R(0.0) ? vndf_impl_min(g2, VNDF_R(1.0)) : VNDF_R(0.0);
+    return vndf_impl_ggx_g2(vndf_ggx_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 7 eps; double 7.
+VNDF_FN VNDF_REAL vndf_ggx_g2_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_g2(lobe, wi);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -119,11 +161,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
 }
 
 VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
-    VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
-    // Made dependent on wo's root, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
-    VNDF_REAL kz = wi.z * (lobe.axis.t < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(134217728.0));
-    VNDF_REAL t_i = VNDF_SQRT(VNDF_FMA(kz, kz, VNDF_FMA(kx, kx, ky * ky)));
-    VNDF_REAL both = VNDF_FMA(lobe.axis.t, wi.z, t_i * lobe.wo_z);
+    VNDF_REAL both = VNDF_FMA(lobe.axis.t, wi.z, vndf_impl_ggx_stretched(lobe, wi) * lobe.wo_z);
     int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
     VNDF_REAL weight = wi.z * lobe.axis.height / (above ? both : VNDF_R(1.0));
     return above ? vndf_impl_share(weight) : VNDF_R(0.0);
@@ -194,6 +232,86 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha
 // Accuracy: 16 eps; double 20.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     return vndf_impl_ggx_pdf_wi(lobe, wi);
+}
+
+// D of the half vector of wo and wi by one quotient: s (a s) / pi with a = alpha_x alpha_y and
+// s = a |h|^2 / ((alpha_y h.x)^2 + (alpha_x h.y)^2 + (a h.z)^2). D takes s squared, so the products carry their rounding
+// errors along. 0 where h points to or below the horizon.
+VNDF_FN VNDF_REAL vndf_impl_ggx_half_ndf(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL x = lobe.wo_x + wi.x, y = lobe.wo_y + wi.y, z = lobe.wo_z + wi.z;
+    VNDF_REAL largest = vndf_impl_max(vndf_impl_max(vndf_impl_abs(x), vndf_impl_abs(y)), vndf_impl_abs(z));
+    VNDF_REAL scale = vndf_impl_scale(largest), a = lobe.alpha_x * lobe.alpha_y;
+    x *= scale;
+    y *= scale;
+    z *= scale;
+    VNDF_REAL px = lobe.alpha_y * x, py = lobe.alpha_x * y, pz = a * z;
+    VNDF_REAL low = VNDF_FMA(px, VNDF_FMA(lobe.alpha_y, x, -px), py * VNDF_FMA(lobe.alpha_x, y, -py));
+    VNDF_REAL q = VNDF_FMA(px, px, VNDF_FMA(py, py, VNDF_FMA(pz, pz, low + low)));
+    int above = z > VNDF_R(0.0) && q > VNDF_R(0.0);
+    VNDF_REAL s = a * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)) / (above ? q : VNDF_R(1.0));
+    return above ? VNDF_1_PI * s * (a * s) : VNDF_R(0.0);
+}
+
+// d / (2 n), n = height / (2^27 weight) twice the projected area of a direction; 0 where nothing is visible.
+VNDF_FN VNDF_REAL vndf_impl_ggx_axis_pdf(struct vndf_impl_axis axis, VNDF_REAL d) {
+    VNDF_REAL share = vndf_impl_bounded_product(d, VNDF_R(67108864.0) * axis.weight);
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(share, axis.height);
+    return d > VNDF_R(0.0) && axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+
+VNDF_FN VNDF_REAL2 vndf_impl_ggx_pdf_wi_both(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL d = vndf_impl_ggx_half_ndf(lobe, wi), pdf = vndf_impl_ggx_axis_pdf(lobe.axis, d);
+    VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
+    // Made dependent on wo's density, which is never negative, so that LLVM's SLP pass does not pack the two.
+    VNDF_REAL kz = wi.z * (pdf >= VNDF_R(0.0) ? VNDF_R(134217728.0) : VNDF_R(1.0));
+    struct vndf_impl_axis axis = vndf_impl_axis_of(VNDF_FMA(kx, kx, ky * ky), kz);
+    return VNDF_MAKE2(pdf, vndf_impl_ggx_axis_pdf(axis, d));
+}
+
+// The densities of a reflection both ways, as bidirectional methods need them: that of wi seen from wo, and that of wo
+// seen from wi.
+// Source: Dupuy & Benyoub 2023, Equation 20, with 1 / sigma for G1 / cos: D(h) / (4 sigma(wo)) and
+//     D(h) / (4 sigma(wi)), h = wo + wi.
+// wo, wi: unit vectors, local frame, anywhere on the sphere.
+// return: (vndf_ggx_pdf_wi(wo, wi), vndf_ggx_pdf_wi(wi, wo)) to rounding, per steradian of wi and of wo; with wo and wi
+//     exchanged the same two numbers exchanged, bit for bit.
+// Accuracy: 16 eps; double 20.
+VNDF_FN VNDF_REAL2 vndf_ggx_pdf_wi_both(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_ggx_pdf_wi_both(vndf_ggx_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 16 eps; double 20.
+VNDF_FN VNDF_REAL2 vndf_ggx_pdf_wi_both_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_pdf_wi_both(lobe, wi);
+}
+
+VNDF_FN VNDF_REAL2 vndf_impl_ggx_eval_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL d = vndf_impl_ggx_half_ndf(lobe, wi), both = vndf_impl_ggx_both(lobe, wi);
+    int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+    VNDF_REAL value = vndf_impl_bounded_quotient(VNDF_R(67108864.0) * d, above ? both : VNDF_R(1.0));
+    value = above ? vndf_impl_finite(value) : VNDF_R(0.0);
+    // Made dependent on the value, which is never negative, so that LLVM's SLP pass does not pack the two.
+    return VNDF_MAKE2(value, vndf_impl_ggx_axis_pdf(lobe.axis, value >= VNDF_R(0.0) ? d : VNDF_R(0.0)));
+}
+
+// A reflection's value and density from common terms.
+// Source: Heitz 2014: the value is D(h) G2 / (4 o i) = D(h) / (2 (t_o i + t_i o)), o = wo.z, i = wi.z, h = wo + wi; the
+//     density is that of vndf_ggx_pdf_wi, D(h) / (4 sigma(wo)).
+// wo, wi: unit vectors, local frame, anywhere on the sphere.
+// return: (value, density). The value is that of the BRDF, without the cosine of wi and without a Fresnel factor, per
+//     steradian; 0 unless both are above the horizon; the same bits for wo and wi exchanged. The density is per steradian
+//     of wi. value * wi.z / density is vndf_ggx_weight.
+// Accuracy: 16 eps; double 20.
+//     Below alpha = 1e-2 the rounding of wi moves both by more than that.
+VNDF_FN VNDF_REAL2 vndf_ggx_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_ggx_eval_pdf(vndf_ggx_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 16 eps; double 20.
+VNDF_FN VNDF_REAL2 vndf_ggx_eval_pdf_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_ggx_eval_pdf(lobe, wi);
 }
 
 // The density of the plain NDF sampler: D(wm) wm.z.

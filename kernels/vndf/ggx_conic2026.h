@@ -181,19 +181,18 @@ VNDF_FN struct vndf_impl_conic_cap vndf_impl_conic_cap_of(struct vndf_impl_cone_
     return cap;
 }
 
-// The lobe of wo and alpha: all that does not depend on u.
-// wo: unit vector, local frame, anywhere on the sphere.
-// alpha: in [1e-8, 1e3] each.
+// What the samples of a lobe take beside it.
+// lobe: of vndf_ggx_lobe_of.
 // return: a struct for vndf_ggx_sample_wi_conic2026_lobe, _lobe_with_pdf and vndf_ggx_pdf_wi_conic2026_lobe.
-VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_of(struct vndf_ggx_lobe lobe) {
     struct vndf_ggx_conic2026 l;
-    l.alpha_x = vndf_impl_alpha(alpha.x);
-    l.alpha_y = vndf_impl_alpha_y(alpha.y);
-    l.wo_x = wo.x;
-    l.wo_y = wo.y;
-    l.wo_z = wo.z;
-    int above = wo.z > VNDF_R(0.0);
-    struct vndf_impl_cone_view v = vndf_impl_cone_view_of(l.alpha_x * wo.x, l.alpha_y * wo.y, wo.z);
+    l.alpha_x = lobe.alpha_x;
+    l.alpha_y = lobe.alpha_y;
+    l.wo_x = lobe.wo_x;
+    l.wo_y = lobe.wo_y;
+    l.wo_z = lobe.wo_z;
+    int above = l.wo_z > VNDF_R(0.0);
+    struct vndf_impl_cone_view v = vndf_impl_cone_view_of(l.alpha_x * l.wo_x, l.alpha_y * l.wo_y, l.wo_z);
     struct vndf_impl_cone c = vndf_impl_cone_of(v, l.alpha_x, l.alpha_y);
     l = vndf_impl_conic_axes(l, c);
     l.x = c.x;
@@ -203,11 +202,19 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_RE
     l.e = c.e;
     l.f = c.f;
     l.unit = above ? c.unit * v.scale : VNDF_R(1.0);
-    l.cap = vndf_impl_conic_cap_of(v, wo.z);
+    l.cap = vndf_impl_conic_cap_of(v, l.wo_z);
     l.cap.x = above ? VNDF_R(0.0) : l.cap.x;
     l.cap.y = above ? VNDF_R(0.0) : l.cap.y;
     l.twice_sigma = above ? VNDF_R(2.0) * vndf_impl_cone_area(c, v.scale) : l.cap.p;
     return l;
+}
+
+// The lobe of wo and alpha: all that does not depend on u.
+// wo: unit vector, local frame, anywhere on the sphere.
+// alpha: in [1e-8, 1e3] each.
+// return: as vndf_ggx_conic2026_of, which is faster where a lobe is at hand.
+VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_lobe(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+    return vndf_ggx_conic2026_of(vndf_ggx_lobe_of(wo, alpha));
 }
 
 // The normal of a disk point, (ex, ey) its direction times the radius.

@@ -6,28 +6,25 @@
 #define VNDF_GGX_HEITZ_DEON2014_H
 
 #include "ggx.h"
-#include "impl/caps.h"
+#include "impl/lobe.h"
 #include "impl/slopes.h"
 
 VNDF_BEGIN
 
-// What both forms share: the azimuth of the stretched view direction, (1, 0) if it has none, and the slope in
-// the plane of incidence.
+// What both forms share: the polar angle of the lobe, and the slope in the plane of incidence.
 struct vndf_impl_incidence {
-    VNDF_REAL alpha_x, alpha_y, ex, ey, z, sqrt_p;
+    VNDF_REAL alpha_x, alpha_y, ex, ey, sqrt_p;
     struct vndf_impl_slope slope;
 };
-VNDF_FN struct vndf_impl_incidence vndf_impl_ggx_incidence(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL u1) {
-    struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    struct vndf_impl_cap cap = vndf_impl_cap_of(v);
+VNDF_FN struct vndf_impl_incidence vndf_impl_ggx_incidence(struct vndf_ggx_lobe lobe, VNDF_REAL u1) {
+    struct vndf_impl_polar polar = vndf_impl_polar_of(lobe);
     struct vndf_impl_incidence i;
-    i.slope = vndf_impl_ggx_slope(cap.z, cap.sine, cap.p, cap.q, cap.sqrt_p, vndf_impl_u(u1));
-    i.alpha_x = v.alpha_x;
-    i.alpha_y = v.alpha_y;
-    i.ex = vndf_impl_azimuth_x(v);
-    i.ey = vndf_impl_azimuth_y(v);
-    i.z = v.z;
-    i.sqrt_p = cap.sqrt_p;
+    i.slope = vndf_impl_ggx_slope(polar.z, polar.sine, polar.p, polar.q, polar.sqrt_p, vndf_impl_u(u1));
+    i.alpha_x = lobe.alpha_x;
+    i.alpha_y = lobe.alpha_y;
+    i.ex = polar.x;
+    i.ey = polar.y;
+    i.sqrt_p = polar.sqrt_p;
     return i;
 }
 
@@ -45,9 +42,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_slope_normal(struct vndf_impl_inci
 
 // The conditional distribution of z = tan(lambda) has the tail (eta - sin eta) / (2 pi), eta = pi - 2
 // |lambda|.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(VNDF_REAL3 wo, VNDF_REAL2 alpha,
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(struct vndf_ggx_lobe lobe,
                                                                    VNDF_REAL2 u) {
-    struct vndf_impl_incidence i = vndf_impl_ggx_incidence(wo, alpha, u.x);
+    struct vndf_impl_incidence i = vndf_impl_ggx_incidence(lobe, u.x);
     VNDF_REAL u2 = vndf_impl_u(u.y);
     int upper = u2 > VNDF_R(0.5);
     VNDF_REAL kappa = vndf_impl_kepler_k(upper ? VNDF_R(1.0) - u2 : u2);
@@ -58,8 +55,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(VNDF_REAL3 wo
 
 // The published fit z(U), U = |2 u2 - 1|, of numerator N and denominator D, re-expanded in w = 1 - U, where
 // its denominator, which falls to 4.92e-4 at U = 1, is a sum instead of a difference.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    struct vndf_impl_incidence i = vndf_impl_ggx_incidence(wo, alpha, u.x);
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    struct vndf_impl_incidence i = vndf_impl_ggx_incidence(lobe, u.x);
     VNDF_REAL u2 = vndf_impl_u(u.y);
     int upper = u2 > VNDF_R(0.5);
     VNDF_REAL w = VNDF_R(2.0) * (upper ? VNDF_R(1.0) - u2 : u2);
@@ -74,7 +71,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(VNDF_REAL3 wo, VNDF
     VNDF_REAL across = n / d, length2 = VNDF_FMA(across, across, VNDF_R(1.0));
     struct vndf_impl_sample m = vndf_impl_ggx_slope_normal(i, upper ? across : -across, VNDF_R(1.0),
                                                            VNDF_PI * slope_density * length2 * length2);
-    return vndf_impl_where(i.z >= VNDF_R(0.0), m);
+    return vndf_impl_where(lobe.wo_z >= VNDF_R(0.0), m);
 }
 
 // A visible normal by the published slope sampler: approximate. Its fit of the conditional distribution is
@@ -86,12 +83,23 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(VNDF_REAL3 wo, VNDF
 // return: unit vector wm, wm.z >= 0. vndf_ggx_pdf_wm is only near its density: the _with_pdf form has it.
 // Accuracy: angle to the published map, 99th percentile: 1.5 eps (1 + condition number); double 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
 // The same; w: the density per steradian of wm of the map as it is, fit included.
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014(vndf_ggx_lobe_of(wo, alpha), u));
+}
+
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the published map, 99th percentile: 1.5 eps (1 + condition number); double 1.5.
+VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014(lobe, u));
+}
+
+// The same; w: the density of the map as it is, fit included.
+VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_lobe_with_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014(lobe, u));
 }
 
 // A visible normal by slopes, with the exact conditional inverse.
@@ -101,13 +109,25 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VND
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
 // Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number), 2 behind the surface; double 1.5, 2.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_exact(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
-    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(wo, alpha, u));
+    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(vndf_ggx_lobe_of(wo, alpha), u));
 }
 
 // The same; w: its density per steradian of wm, from the sampler's own terms.
 VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_exact_with_pdf(VNDF_REAL3 wo, VNDF_REAL2 alpha,
                                                                     VNDF_REAL2 u) {
-    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014_exact(wo, alpha, u));
+    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014_exact(vndf_ggx_lobe_of(wo, alpha), u));
+}
+
+// The same for many u and one wo and alpha.
+// Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number), 2 behind the surface; double 1.5, 2.
+VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_exact_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
+    return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(lobe, u));
+}
+
+// The same; w: its density, from the sampler's own terms.
+VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_exact_lobe_with_pdf(struct vndf_ggx_lobe lobe,
+                                                                         VNDF_REAL2 u) {
+    return vndf_impl_direction_pdf(vndf_impl_ggx_heitz_deon2014_exact(lobe, u));
 }
 
 VNDF_END

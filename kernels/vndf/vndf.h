@@ -56,6 +56,7 @@
 #include "ggx_walter2007.h"
 
 #include "beckmann.h"
+#include "beckmann_lobe.h"
 #include "beckmann_heitz_deon2014.h"
 #include "beckmann_jakob2014.h"
 #include "beckmann_walter2007.h"

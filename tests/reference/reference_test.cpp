@@ -71,10 +71,30 @@ const std::vector<Row>& table() {
 template <class R>
 using Vector = std::vector<R>;
 
+bool is_pair(const Row& row) {
+    return find_function(row.function)->kind == Kind::pair;
+}
+
+// The larger error of two numbers, each in units of epsilon (1 + condition) of its own.
+template <class R>
+double pair_error(const Row& row, const R* out) {
+    const R unit = std::numeric_limits<R>::epsilon() / 2;
+    double worst = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const double allowed =
+            static_cast<double>(unit) * (1 + (k == 0 ? row.condition : row.pdf_condition));
+        const long double off = std::abs(static_cast<long double>(out[k]) - row.out[k]);
+        const double error = off == 0 ? 0 : static_cast<double>(off / std::abs(row.out[k])) / allowed;
+        worst = std::max(worst, std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
+    }
+    return worst;
+}
+
 // Errors of `out` in units of epsilon (1 + condition): of the direction or value, and of a sampler's density.
 // Behind the roots of a map stands a stretched frame of length 1, which alpha > 1 magnifies.
 template <class R>
 double table_error(const Row& row, const R* out) {
+    if (is_pair(row)) return pair_error(row, out);
     const R unit = std::numeric_limits<R>::epsilon() / 2;
     const auto n = row.out.size();
     long double square = 0, scale = 0;
@@ -280,6 +300,9 @@ TEST_CASE("the comparison with the table notices seeded errors") {
         CHECK(worst_of<double>(name, swapped(5, 6)).error > table_bound);  // roles of u
     }
     CHECK(worst_of<double>("vndf_ggx_pdf_wi", {}, scaled(0, 4)).error > table_bound);  // no Jacobian
+    for (const std::size_t number : {0, 1})
+        for (const char* pair : {"vndf_ggx_pdf_wi_both", "vndf_ggx_eval_pdf", "vndf_beckmann_eval_pdf"})
+            CHECK(worst_of<double>(pair, {}, scaled(number, 1 + 1e-12)).error > table_bound);
     CHECK(worst_of<double>("vndf_ggx_sample_wm_heitz2018", {}, scaled(3, 1 + 1e-10)).error > table_bound);
     CHECK(worst_of<double>("vndf_ggx_sample_wm_heitz2017", {}, scaled(1, -1)).error >
           table_bound);  // T2 flipped

@@ -631,6 +631,18 @@ std::map<std::string, Evaluation> evaluations() {
         all[prefix + "pdf_wi"] = [ndf](const Reals& in) {
             return Reals{pdf_wi(ndf, vec(in, 0), vec(in, 3), in[6], in[7])};
         };
+        // The half vector's Jacobian dwm / dwi is 1 / (4 wo . wm), whichever of the two wo is.
+        all[prefix + "pdf_wi_both"] = [ndf](const Reals& in) {
+            const Vec wo = vec(in, 0), wi = vec(in, 3);
+            return Reals{pdf_wi(ndf, wo, wi, in[6], in[7]), pdf_wi(ndf, wi, wo, in[6], in[7])};
+        };
+        // The BRDF by G1 and G2 / G1: the weight times the density over the cosine of wi.
+        all[prefix + "eval_pdf"] = [ndf, both](const Reals& in) {
+            const Real pdf = pdf_wi(ndf, vec(in, 0), vec(in, 3), in[6], in[7]);
+            const Real mask = both(in) ? Real(1 + lambda(ndf, vec(in, 0), in[6], in[7])) : Real(1);
+            const Real weight = both(in) ? Real(mask / (mask + lambda(ndf, vec(in, 3), in[6], in[7]))) : Real(0);
+            return Reals{both(in) ? Real(weight * pdf / in[5]) : Real(0), pdf};
+        };
         // The marginal in the plane of incidence at alpha = 1.
         const auto plane = [ndf](const Real& c) { return marginal(ndf, sqrt((1 - c) * (1 + c)), c); };
         const auto place = [ndf](const Marginal& m, const Real& x) {
@@ -757,9 +769,10 @@ class Table {
                 return;  // not in double
         // Too few digits are left of sigma / z - 1.
         if (name.find("_lambda") != std::string::npos && out[0] != 0 && abs(out[0]) < Real(1e-18)) return;
-        const bool with_pdf = out.size() == 4;
+        const bool with_pdf = out.size() == 4, pair = name.ends_with("_both") || name.ends_with("_eval_pdf");
         const std::size_t components = std::min<std::size_t>(3, out.size());
         const Real scale = out.size() == 1 ? Real(abs(out[0])) : Real(1), pdf = with_pdf ? out[3] : Real(0);
+        // Of a pair the first number's is `condition`, the second's `pdf_condition`.
         Real condition = 0, pdf_condition = 0;
         const Real step(1e-12);
         effort.quadrature = Real(1e-42), effort.residual = Real(1e-39), effort.again = true;
@@ -776,6 +789,11 @@ class Table {
             const Reals a = f(up);
             effort.next = 0;
             const Reals b = f(down);
+            if (pair) {
+                if (out[0] > 0) condition += abs(a[0] - b[0]) * per / out[0];
+                if (out[1] > 0) pdf_condition += abs(a[1] - b[1]) * per / out[1];
+                continue;
+            }
             Real square = 0;
             for (std::size_t k = 0; k < components; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
             condition += sqrt(square) * per / scale;
@@ -905,13 +923,17 @@ void terms(Table& table) {
             if (k % 5 == 0 && wi[2] != 0) {
                 table.row(prefix + "g2", join({w, wi, alpha}));
                 table.row(prefix + "g2_separable", join({w, wi, alpha}));
-                if (prefix == "vndf_ggx_") table.row(prefix + "weight", join({w, wi, alpha}));
+                table.row(prefix + "weight", join({w, wi, alpha}));
             }
             // Behind the surface a Beckmann density of small alpha is steeper than double arguments resolve.
             if (k % 3 == 0 || k % 7 == 3) {
                 table.row(prefix + "pdf_wm", join({w, wm, alpha}));
                 table.row(prefix + "pdf_wi", join({w, wi, alpha}));
-                if (prefix == "vndf_ggx_") table.row(prefix + "pdf_wi_eto2023", join({w, wi, alpha}));
+                table.row(prefix + "eval_pdf", join({w, wi, alpha}));
+                if (prefix == "vndf_ggx_") {
+                    table.row(prefix + "pdf_wi_both", join({w, wi, alpha}));
+                    table.row(prefix + "pdf_wi_eto2023", join({w, wi, alpha}));
+                }
             }
             if (prefix == "vndf_ggx_" && k % 5 == 1) {
                 const std::vector<double> n = {0, 0, 1};

@@ -17,7 +17,7 @@ double exponent(const Function& function, const RowReader& reader, const double*
         return beckmann_exponent({row[slope], row[slope + 1], 1}, alpha);
     if (reader.has_wm()) return beckmann_exponent(reader.wm(row), alpha);
     const Direction wo = reader.wo(row), wi = reader.wi(row);
-    if (function.kind == Kind::density)
+    if (function.kind == Kind::density || function.kind == Kind::pair)
         return beckmann_exponent({wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]}, alpha);
     const auto angle = [&](const Direction& w) {  // cot^2 of the stretched angle
         const double x = alpha[0] * w[0], y = alpha[1] * w[1];
@@ -81,48 +81,59 @@ double settle(double error, double allowance) {
     return error == 0 ? 0 : error / allowance;
 }
 
-// The error of row i in its unit; NaN if the row is not judged.
+// The error of a result of this size, off by this difference, in its unit; NaN if it is not judged.
 template <class R>
-double error_at(const Judge& j, std::size_t i) {
+double error_of(const Judge& j, const double* row, const R* exact, const R& size, const R& difference) {
     constexpr double skip = std::numeric_limits<double>::quiet_NaN();
     const double unit = epsilon(j.real), smallest = j.real == Real::f32 ? 0x1p-126 : 0x1p-1022;
     const double largest = j.real == Real::f32 ? 0x1.fffffep127 : 0x1.fffffffffffffp1023;
+    // Near the sign of a rounded product and outside the range of the type there is no relative error.
+    const double lost = cancellation(j.reader, row);
+    if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
+    if (at_edge(j.function, row, j.real)) return skip;
+    if (grazes(j.function, j.reader, row, static_cast<double>(exact[0]), unit)) return skip;
+    if (j.function.kind == Kind::inverse) {
+        const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
+        if (!is_inverse(j.function, j.reader, row, u, precision(j.real))) return skip;
+    }
+    if (size < smallest && difference <= 2 * smallest) return 0;
+    if (j.function.unit == Unit::condition) {
+        const auto evaluation = reference::find_evaluation<double>(j.function.name);
+        double condition = absolute_condition(j.function, evaluation, row, precision(j.real));
+        // In double a lobe may be narrower than a rounding error of float.
+        if (j.real == Real::f64)
+            condition = std::max(
+                condition, absolute_condition(j.function, evaluation, row, precision(j.real), -1, 0x1p-38));
+        if (j.function.kind == Kind::inverse && !is_settled(condition)) return skip;
+        return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
+    }
+    if (size < smallest) return std::numeric_limits<double>::infinity();
+    double allowance = lost;
+    if (j.function.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row);
+    return settle(static_cast<double>(difference / size), unit * allowance);
+}
+
+// The error of row i in its unit; NaN if the row is not judged. Of a pair each number counts alone: one may be a million
+// times the other.
+template <class R>
+double error_at(const Judge& j, std::size_t i) {
     const std::vector<double> row = j.table.row(i);
     const std::vector<R> in(row.begin(), row.end());
     R exact[4];
     reference::find_evaluation<R>(j.function.name)(in.data(), exact, precision(j.real));
+    double worst = std::numeric_limits<double>::quiet_NaN();
     R size = 0, difference = 0;
     for (std::size_t k = 0; k < j.function.outputs.size(); ++k) {
         R delta = static_cast<R>(j.results[k][i]) - exact[k];
         if (j.function.outputs[k] == "u1") delta -= std::nearbyint(delta);  // an azimuth
         size += exact[k] * exact[k];
         difference += delta * delta;
+        if (j.function.kind == Kind::pair)
+            worst = std::fmax(
+                worst, error_of<R>(j, row.data(), exact, R(std::abs(exact[k])), R(std::abs(delta))));
     }
-    size = std::sqrt(size), difference = std::sqrt(difference);
-    // Near the sign of a rounded product and outside the range of the type there is no relative error.
-    const double lost = cancellation(j.reader, row.data());
-    if (!(lost * unit < 0.01) || !std::isfinite(size) || size >= largest) return skip;
-    if (at_edge(j.function, row.data(), j.real)) return skip;
-    if (grazes(j.function, j.reader, row.data(), static_cast<double>(exact[0]), unit)) return skip;
-    if (j.function.kind == Kind::inverse) {
-        const double u[2] = {static_cast<double>(exact[0]), static_cast<double>(exact[1])};
-        if (!is_inverse(j.function, j.reader, row.data(), u, precision(j.real))) return skip;
-    }
-    if (size < smallest && difference <= 2 * smallest) return 0;
-    if (j.function.unit == Unit::condition) {
-        const auto evaluation = reference::find_evaluation<double>(j.function.name);
-        double condition = absolute_condition(j.function, evaluation, row.data(), precision(j.real));
-        // In double a lobe may be narrower than a rounding error of float.
-        if (j.real == Real::f64)
-            condition = std::max(condition, absolute_condition(j.function, evaluation, row.data(),
-                                                               precision(j.real), -1, 0x1p-38));
-        if (j.function.kind == Kind::inverse && !is_settled(condition)) return skip;
-        return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
-    }
-    if (size < smallest) return std::numeric_limits<double>::infinity();
-    double allowance = lost;
-    if (j.function.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row.data());
-    return settle(static_cast<double>(difference / size), unit * allowance);
+    if (j.function.kind == Kind::pair) return worst;
+    return error_of<R>(j, row.data(), exact, R(std::sqrt(size)), R(std::sqrt(difference)));
 }
 
 template <class R>
@@ -156,7 +167,7 @@ std::vector<Finding> check_values(runtime::Evaluator& evaluator, const Function&
     const Errors errors =
         real == Real::f32 ? judged_errors<double>(judge) : judged_errors<long double>(judge);
     Errors bad;
-    const bool density = function.kind == Kind::density;
+    const bool density = function.kind == Kind::density || function.kind == Kind::pair;
     for (std::size_t i = 0; i < table.rows(); ++i)
         for (const auto& column : results)
             bad.add(std::isfinite(column[i]) && (!density || column[i] >= 0) ? 0 : 1, i);

@@ -199,29 +199,6 @@ VNDF_FN VNDF_REAL vndf_impl_slope_gaussian(struct vndf_impl_seen_slope s, VNDF_R
 
 // --- What the samplers share ---
 
-// The plane of incidence of a stretched view direction: its azimuth, (1, 0) if it has none, and its slopes. Squares are
-// formed 2^40 times larger: they keep full precision down to wo.x = 1e-19 for every alpha in the domain.
-struct vndf_impl_beckmann_frame {
-    VNDF_REAL alpha_x, alpha_y, ex, ey;
-    int sees;  // anything: not so at wo = -z
-    struct vndf_impl_incidence_slopes slopes;
-};
-VNDF_FN struct vndf_impl_beckmann_frame vndf_impl_beckmann_frame_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    struct vndf_impl_beckmann_frame f;
-    f.alpha_x = vndf_impl_alpha(alpha.x);
-    f.alpha_y = vndf_impl_alpha_y(alpha.y);
-    VNDF_REAL up = VNDF_R(1099511627776.0), least = VNDF_R(1e6) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
-    VNDF_REAL x = f.alpha_x * up * wo.x, y = f.alpha_y * up * wo.y, square = VNDF_FMA(x, x, y * y);
-    int tilted = square > least;
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(tilted ? square : least);
-    f.ex = tilted ? x * rcp : VNDF_R(1.0);
-    f.ey = tilted ? y * rcp : VNDF_R(0.0);
-    f.sees = tilted || wo.z >= VNDF_R(0.0);
-    VNDF_REAL steep = vndf_impl_min(vndf_impl_abs(wo.z) * up * rcp, VNDF_IMPL_STEEP_LIMIT);
-    f.slopes = vndf_impl_beckmann_incidence(steep, wo.z >= VNDF_R(0.0));
-    return f;
-}
-
 // The normal that leans by t towards and by y across e before the stretch, and its density, `weight` in slopes: times
 // |g|^3 / (alpha_x alpha_y) for g = (alpha_x h_x, alpha_y h_y, 1).
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL t,
@@ -241,26 +218,6 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     m.pdf = vndf_impl_times_power(part, 3 * rise.exponent);
     return vndf_impl_where(length2 <= VNDF_REAL_MAX, m);
 }
-
-// The normal of a slope in the plane of incidence and of one of y across it, with its visible density.
-VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_impl_beckmann_frame f,
-                                                          struct vndf_impl_visible_slope r,
-                                                          VNDF_REAL across) {
-    struct vndf_impl_incidence_slopes i = f.slopes;
-    VNDF_REAL p = i.front ? r.x : r.y, q = i.front ? r.x : VNDF_FMA(VNDF_R(2.0), i.a, r.y);
-    VNDF_REAL square = p * q, exponent = VNDF_FMA(across, across, square);
-    VNDF_REAL low = VNDF_FMA(across, across, square - exponent) + VNDF_FMA(p, q, -square);
-    // Where |a| is limited, the density grows with it on.
-    VNDF_REAL beyond = vndf_impl_max(i.steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
-    VNDF_REAL share = VNDF_1_PI * r.y / i.area * (i.front ? VNDF_R(1.0) : beyond);
-    VNDF_REAL e = vndf_impl_moderate_exp(-exponent),
-              weight = f.sees ? share * VNDF_FMA(-low, e, e) : VNDF_R(0.0);
-    VNDF_REAL t = i.front ? -r.x : i.steep + r.y;
-    return vndf_impl_beckmann_unstretch(f.ex, f.ey, t, across, f.alpha_x, f.alpha_y, weight);
-}
-
-#undef VNDF_IMPL_STEEP_LIMIT
-#undef VNDF_IMPL_COT_LIMIT
 
 VNDF_END
 

@@ -187,9 +187,8 @@ struct vndf_impl_power {
     VNDF_INT exponent;
 };
 
-// scale e^(x + low), |low| <= 1e-2, scale.part in [0, 2^60]: as vndf_impl_scaled_exp, but for a scale of any size, and never
-// more than the largest finite number.
-VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_impl_power scale) {
+// scale e^(x + low), |low| <= 1e-2, for a scale of any size; 0 below x = -174 / -1400, as for x = 174 / 1400 above.
+VNDF_FN struct vndf_impl_power vndf_impl_exp_power(VNDF_REAL x, VNDF_REAL low, struct vndf_impl_power scale) {
     VNDF_REAL bounded = vndf_impl_min(vndf_impl_max(x, VNDF_IMPL_EXP_MIN), -VNDF_IMPL_EXP_MIN);
     VNDF_REAL shifted = VNDF_FMA(bounded, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
     VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
@@ -200,9 +199,9 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_exp(VNDF_REAL x, VNDF_REAL low, struct vndf_
 #else
     VNDF_REAL power = VNDF_FAST(exp)(z);
 #endif
-    VNDF_INT exponent = VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER) + scale.exponent;
-    VNDF_REAL result = vndf_impl_times_power(scale.part * power, exponent);
-    return x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : result;
+    scale.exponent += VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER);
+    scale.part = x < VNDF_IMPL_EXP_MIN ? VNDF_R(0.0) : scale.part * power;
+    return scale;
 }
 
 // exp(x) for x <= 88 / 700; 0 where that is no normal number. Accuracy: 1.5 / 2; 1.02 ulp where the result is normal.

@@ -31,11 +31,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_where(int defined, struct vndf_impl_sa
 
 // The stretched view direction v = (alpha_x wo.x, alpha_y wo.y, wo.z), of any length, in stable terms.
 struct vndf_impl_view {
-    VNDF_REAL alpha_x, alpha_y;  // clamped
-    VNDF_REAL x, y, z;           // v
-    VNDF_REAL r, l;              // |v|, and the length of its tangential part
-    VNDF_REAL rcp_l;             // 1 / l, 0 for l = 0
-    VNDF_REAL t, rcp_t;          // sqrt(r (r + |z|))
+    VNDF_REAL z, r, l;  // |v|, and the length of its tangential part
 };
 
 // Squares of alpha wo.x are formed 2^27 times larger: they keep full precision down to wo.x = 1e-19 for every
@@ -45,31 +41,10 @@ VNDF_FN struct vndf_impl_view vndf_impl_view_of(VNDF_REAL vx, VNDF_REAL vy, VNDF
     struct vndf_impl_view v;
     VNDF_REAL kx = vx * VNDF_R(134217728.0), ky = vy * VNDF_R(134217728.0);
     VNDF_REAL kl = VNDF_SQRT(VNDF_FMA(kx, kx, ky * ky));
-    v.x = vx;
-    v.y = vy;
     v.z = vz;
     v.l = kl * VNDF_R(7.450580596923828125e-09);
-    v.rcp_l = v.l > VNDF_R(0.0) ? VNDF_R(1.0) / v.l : VNDF_R(0.0);
     v.r = VNDF_SQRT(VNDF_FMA(v.l, v.l, vz * vz));
-    v.t = VNDF_SQRT(v.r * (v.r + vndf_impl_abs(vz)));
-    v.rcp_t = VNDF_R(1.0) / v.t;
-    v.alpha_x = v.alpha_y = VNDF_R(1.0);
     return v;
-}
-VNDF_FN struct vndf_impl_view vndf_impl_stretch(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
-    struct vndf_impl_view v = vndf_impl_view_of(alpha_x * wo.x, alpha_y * wo.y, wo.z);
-    v.alpha_x = alpha_x;
-    v.alpha_y = alpha_y;
-    return v;
-}
-
-// The unit vector along the tangential part of v: azimuth 0 for a v without one.
-VNDF_FN VNDF_REAL vndf_impl_azimuth_x(struct vndf_impl_view v) {
-    return v.l > VNDF_R(0.0) ? v.x * v.rcp_l : VNDF_R(1.0);
-}
-VNDF_FN VNDF_REAL vndf_impl_azimuth_y(struct vndf_impl_view v) {
-    return v.y * v.rcp_l;
 }
 
 // Twice the projected area that v sees in front of the surface, r + |z|, and behind it, l^2 / (r + |z|), where r + z would
