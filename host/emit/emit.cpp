@@ -53,28 +53,47 @@ std::vector<std::string> macros(const Options& options) {
     return all;
 }
 
+// Its paragraphs as comments, each filled anew.
 std::string commented(std::string_view text) {
-    std::vector<std::string> lines;
+    std::vector<std::string> paragraphs{"//"};
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
-        lines.push_back(end == 0 ? "//" : "// " + std::string(text.substr(0, end)));
+        if (end == 0)
+            paragraphs.insert(paragraphs.end(), {"//", "//"});
+        else
+            paragraphs.back() += fmt::format(" {}", text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    return lay_out_comment(lines, 0);
+    return lay_out_comment(paragraphs, 0);
 }
 
 // What the user may want to know before the functions.
 std::string introduction(const Options& options) {
     std::string out = commented(options.stamp) + "//\n" + commented(licence_files().at(0).text) + "//\n";
-    out += commented(
-        "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from "
-        "the\n"
-        "surface, in a right-handed frame with z along its normal. alpha: parameters of the distribution, "
-        "no\n"
-        "perceptual roughness. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions "
-        "are\n"
-        "declared, may be set before.\n");
+    out += commented(fmt::format(
+        "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors away from the surface, "
+        "z along its normal. alpha: no perceptual roughness. u: uniform in [0, 1]. eps: {}. VNDF_FN, how "
+        "functions are declared, may be set before.",
+        options.real == runtime::Real::f32 ? "2^-24" : "2^-53"));
     return out;
+}
+
+// What is said of accuracy but means nothing here: that of internals, in units of impl/math.h, and of double in float.
+std::vector<std::string> own_comments(const Declaration& declaration, runtime::Real real) {
+    static const std::regex of_internal(" *Accuracy: .*"), of_double("; double [0-9., ]+\\.$");
+    std::vector<std::string> lines;
+    for (const std::string& line : declaration.comments) {
+        if (!declaration.name.starts_with("vndf_impl_")) {
+            lines.push_back(real == runtime::Real::f32 ? std::regex_replace(line, of_double, ".") : line);
+        } else if (line.find("Accuracy: ") == line.npos) {
+            lines.push_back(line);
+        } else {
+            lines.push_back(std::regex_replace(line, of_internal, ""));
+            if (lines.back() == "//") lines.pop_back();
+            break;
+        }
+    }
+    return lines;
 }
 
 // What each language needs, and nothing else.
@@ -122,12 +141,17 @@ std::string as_string(const std::string& source, const Options& options) {
     }
     lines.pop_back();
     if (lines.back() == ',') lines.pop_back();
-    return commented(options.stamp) +
-           fmt::format("#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n{}\n{}{};\n\n#endif\n",
-                       array ? "/* Lines, since compilers limit the length of one literal. */\n"
-                               "static const char* const vndf_source[] = {"
-                             : "static const char vndf_source[] =",
-                       lines, array ? "\n}" : "");
+    const std::string declaration =
+        array ? "/* Lines, since compilers limit the length of one literal. */\n"
+                "static const char* const vndf_source[] = {\n" +
+                    lines + "\n};\n"
+              // ISO C asks compilers for 4095 characters alone, of which GCC and clang warn under -pedantic.
+              : "#ifdef __GNUC__\n#pragma GCC diagnostic push\n"
+                "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#endif\n"
+                "static const char vndf_source[] =\n" +
+                    lines + ";\n#ifdef __GNUC__\n#pragma GCC diagnostic pop\n#endif\n";
+    return commented(options.stamp) + "#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n" + declaration +
+           "\n#endif\n";
 }
 
 }  // namespace
@@ -170,12 +194,13 @@ std::string emit(const Options& options) {
     const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
-    const std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);
+    std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);
     std::set<std::string> files;  // whose head is kept: of those with a function asked for
     for (const Declaration& declaration : chosen)
         if (names.contains(declaration.name)) files.insert(declaration.file);
     std::string body;
-    for (const Declaration& declaration : chosen) {
+    for (Declaration& declaration : chosen) {
+        declaration.comments = own_comments(declaration, options.real);
         if (files.erase(declaration.file))
             body += lay_out_comment(file_comment(tokens, declaration.file), 0) + '\n';
         body += lay_out(declaration) + '\n';

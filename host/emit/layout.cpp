@@ -1,6 +1,8 @@
 #include "emit/layout.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <optional>
 
 #include "emit/tokens.h"
@@ -42,6 +44,27 @@ void drop_choices(Tokens& tokens) {
         } else {
             tokens.erase(tokens.begin() + i, tokens.begin() + colon + 1);
         }
+    }
+}
+
+// The fewest digits that still mean the same number.
+template <typename Real>
+std::string shortest(const std::string& text, std::string_view suffix) {
+    Real value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    std::array<char, 32> digits;
+    std::string out(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+    if (out.find_first_of(".e") == out.npos) out += ".0";
+    out += suffix;
+    return out.size() < text.size() ? out : text;
+}
+void shorten_numbers(Tokens& tokens) {
+    for (Token& token : tokens) {
+        if (token.kind != TokenKind::number || token.text.starts_with("0x")) continue;
+        if (token.text.ends_with("f"))
+            token.text = shortest<float>(token.text, "f");
+        else if (token.text.find('.') != token.text.npos)
+            token.text = shortest<double>(token.text, "");
     }
 }
 
@@ -214,6 +237,7 @@ std::string lay_out(const Declaration& declaration) {
     drop_parentheses(tokens);
     drop_choices(tokens);
     drop_double_signs(tokens);
+    shorten_numbers(tokens);
     return lay_out_comment(declaration.comments, 0) + Printer().print(tokens);
 }
 

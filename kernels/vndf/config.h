@@ -117,7 +117,8 @@
 #define VNDF_EPSILON 5.96046447753906250000e-08f  // 2^-24
 #endif
 
-// The clamps of the public domain (see vndf.h).
+// The clamps of the public domain (see vndf.h). Below the least alpha a float direction cannot tell the lobe from a mirror; above
+// the largest, squares would leave the range of numbers.
 #define VNDF_ALPHA_MIN VNDF_R(1e-8)
 #define VNDF_ALPHA_MAX VNDF_R(1e3)
 #if VNDF_DOUBLE

@@ -45,15 +45,18 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : vndf_impl_no_length(v.z);
     VNDF_REAL vx = v.weight * VNDF_FMA(least, ex, kx), vy = v.weight * VNDF_FMA(least, ey, ky),
               vz = v.weight * VNDF_FMA(least, ez, kz);
-    struct vndf_impl_cap_point p =
-        vndf_impl_cap_point_of(v, VNDF_FMA(vx, vx, VNDF_FMA(vy, vy, vz * vz)), u2, VNDF_R(1.0) - u2);
-    VNDF_REAL radius = VNDF_SQRT(p.square);
+    VNDF_REAL l2 = VNDF_FMA(vx, vx, VNDF_FMA(vy, vy, vz * vz)), rest = VNDF_R(1.0) - u2;
+    VNDF_REAL z = rest * v.height, height2 = v.height * v.height, square = u2 * VNDF_FMA(rest, height2, l2);
+    VNDF_REAL steep = rest * VNDF_FMA(u2, height2, -l2),
+              excess = v.level ? z * VNDF_FMA(VNDF_R(2.0), v.z, -z) : steep;
+    VNDF_REAL radius = VNDF_SQRT(square);
     ex *= radius;
     ey *= radius;
     ez *= radius;
     // The sum as in vndf_impl_cap_sum.
     VNDF_REAL hx = ex + vx, hy = ey + vy, hz = ez + vz;
-    VNDF_REAL error = VNDF_FMA(ex - vx, hx, VNDF_FMA(ey - vy, hy, VNDF_FMA(ez - vz, hz, -p.excess))) / p.both;
+    VNDF_REAL error =
+        VNDF_FMA(ex - vx, hx, VNDF_FMA(ey - vy, hy, VNDF_FMA(ez - vz, hz, -excess))) / (square + l2);
     hx = VNDF_FMA(-error, ex, hx);
     hy = VNDF_FMA(-error, ey, hy);
     hz = VNDF_FMA(-error, ez, hz);
@@ -62,8 +65,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     hx = VNDF_FMA(-lean, n.x, hx);
     hy = VNDF_FMA(-lean, n.y, hy);
     hz = VNDF_FMA(-lean, n.z, hz);
-    VNDF_REAL gx = VNDF_FMA(p.z, n.x, alpha * hx), gy = VNDF_FMA(p.z, n.y, alpha * hy),
-              gz = VNDF_FMA(p.z, n.z, alpha * hz);
+    VNDF_REAL gx = VNDF_FMA(z, n.x, alpha * hx), gy = VNDF_FMA(z, n.y, alpha * hy),
+              gz = VNDF_FMA(z, n.z, alpha * hz);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, gz * gz));
     VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
     int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
@@ -71,7 +74,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     m.x = defined ? gx * rcp : n.x;
     m.y = defined ? gy * rcp : n.y;
     m.z = defined ? gz * rcp : n.z;
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, VNDF_FMA(hz, hz, p.z * p.z))), ratio = length2 / h2;
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, VNDF_FMA(hz, hz, z * z))), ratio = length2 / h2;
     VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.height * (alpha * alpha));
     m.pdf = defined && v.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;

@@ -10,8 +10,26 @@
 
 VNDF_BEGIN
 
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
-    return vndf_impl_cap_normal(lobe, vndf_impl_cap_half(lobe, u));
+// The normal g of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2) by the length that h has.
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
+    struct vndf_impl_sample m;
+    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.axis.height * v.axis.height;
+    struct vndf_impl_vector h = vndf_impl_cap_sum(
+        v, l2, u1, rest * v.axis.height, u2 * VNDF_FMA(rest, height2, l2), rest * VNDF_FMA(u2, height2, -l2));
+    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
+    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    // Only a huge wo has none.
+    int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
+    m.x = defined ? gx * rcp : VNDF_R(0.0);
+    m.y = defined ? gy * rcp : VNDF_R(0.0);
+    m.z = defined ? h.z * rcp : VNDF_R(1.0);
+    VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
+    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.axis.height * (v.alpha_x * v.alpha_y));
+    // At wo = -z, where nothing is visible, the height is 0, and the normal on the horizon.
+    m.pdf = defined && v.axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return m;
 }
 
 // A visible normal by the spherical cap.

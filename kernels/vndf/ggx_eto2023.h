@@ -38,16 +38,10 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(struct vndf_ggx_lobe v) {
 // the height of the bound.
 VNDF_FN struct vndf_impl_vector vndf_impl_bounded_half(struct vndf_ggx_lobe v, struct vndf_impl_bound b,
                                                        VNDF_REAL2 u) {
-    struct vndf_impl_cap_point p;
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
     VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), rest_b = rest * b.height;
     VNDF_REAL part = VNDF_FMA(rest_b, b.height, b.gap_z * b.other_z);
-    p.z = rest_b + b.gap_z;
-    p.square = u2 * (part + l2);
-    VNDF_REAL level = p.z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -p.z), steep = VNDF_FMA(u2, part, -rest * l2);
-    p.excess = v.axis.level ? level : steep;
-    p.both = p.square + l2;
-    return vndf_impl_cap_sum(v, p, u1);
+    return vndf_impl_cap_sum(v, l2, u1, rest_b + b.gap_z, u2 * (part + l2), VNDF_FMA(u2, part, -rest * l2));
 }
 
 // The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k

@@ -18,37 +18,32 @@
 
 VNDF_BEGIN
 
-// theta of a v by its parts times 2^27: squares keep full precision down to v.x = 1e-27, and the largest, (2^27 1e6)^2, is far
-// from overflow.
+// theta of 2^27 v, whose squares neither underflow nor overflow.
 struct vndf_impl_axis {
-    VNDF_REAL t;  // r 2^27
-    // (x, y) / height = tan(theta / 2), (x, y) = weight (v.x, v.y) 2^27, and 2 z / height = 1 - tan^2(theta / 2). Above the
-    // surface height is r + z; below it l^2, and the weight r - z, both over about l.
-    VNDF_REAL height, weight, z;
-    int level;  // v is near the horizon: |z| < height / 4
+    VNDF_REAL t;  // r
+    // weight l / height = tan(theta / 2): height = r + z above the surface; below it l^2, and the weight r - z, both over
+    // about l.
+    VNDF_REAL height, weight, z;  // z: weight v.z
+    int level;                    // near the horizon: |z| < height / 4
 };
 
-// What stands for l = 0: nothing beside r + z above the surface, but not so little that its square is subnormal; and not lost
-// below it, where scale is large: 2^-30, 2^-60.
+// What stands for l = 0: nothing beside r + z, and not lost below the surface.
 VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
     return z >= VNDF_R(0.0) ? VNDF_R(9.31322574615478516e-10) : VNDF_R(8.67361737988403547e-19);
 }
 
-// A power of two near 1 / l, for l2 = l^2.
-VNDF_FN VNDF_REAL vndf_impl_rcp_root_scale(VNDF_REAL l2) {
-#if VNDF_DOUBLE
-    return VNDF_AS_REAL(0x5fe0000000000000 - ((VNDF_AS_INT(l2) >> 1) & 0x7ff0000000000000));
-#else
-    return VNDF_AS_REAL(0x5f000000 - ((VNDF_AS_INT(l2) >> 1) & 0x7f800000));
-#endif
-}
 VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
     struct vndf_impl_axis v;
-    VNDF_REAL size = vndf_impl_abs(z);
-    v.t = VNDF_SQRT(VNDF_FMA(z, z, l2));
-    VNDF_REAL sum = v.t + size;
-    VNDF_REAL scale = vndf_impl_rcp_root_scale(l2), weight = sum * scale, height = l2 * scale;
     int front = z >= VNDF_R(0.0);
+    VNDF_REAL size = front ? z : -z, r = VNDF_SQRT(VNDF_FMA(z, z, l2)), sum = r + size;
+    // A power of two near 1 / l.
+#if VNDF_DOUBLE
+    VNDF_REAL scale = VNDF_AS_REAL(0x5fe0000000000000 - ((VNDF_AS_INT(l2) >> 1) & 0x7ff0000000000000));
+#else
+    VNDF_REAL scale = VNDF_AS_REAL(0x5f000000 - ((VNDF_AS_INT(l2) >> 1) & 0x7f800000));
+#endif
+    VNDF_REAL weight = sum * scale, height = l2 * scale;
+    v.t = r;
     v.weight = front ? VNDF_R(1.0) : weight;
     v.height = front ? sum : height;
     v.z = v.weight * z;
@@ -56,30 +51,13 @@ VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
     return v;
 }
 
-// What all samples, densities and terms of a lobe share. Made by vndf_ggx_lobe_of, used by the functions with _lobe in their
-// names; its members are internals.
+// Its members are internals.
 struct vndf_ggx_lobe {
     VNDF_REAL wo_x, wo_y, wo_z;
     VNDF_REAL alpha_x, alpha_y;  // clamped
     struct vndf_impl_axis axis;
-    VNDF_REAL x, y;  // (x, y) / height = tan(theta / 2) along the azimuth of v
+    VNDF_REAL x, y;  // tan(theta / 2) height along the azimuth of v
 };
-
-VNDF_FN struct vndf_ggx_lobe vndf_impl_lobe_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
-    struct vndf_ggx_lobe lobe;
-    lobe.wo_x = wo.x;
-    lobe.wo_y = wo.y;
-    lobe.wo_z = wo.z;
-    lobe.alpha_x = vndf_impl_alpha(alpha.x);
-    lobe.alpha_y = vndf_impl_alpha_y(alpha.y);
-    VNDF_REAL kx = lobe.alpha_x * wo.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wo.y * VNDF_R(134217728.0);
-    VNDF_REAL l2 = VNDF_FMA(kx, kx, ky * ky);
-    lobe.axis = vndf_impl_axis_of(l2, wo.z * VNDF_R(134217728.0));
-    // Azimuth 0 for a v without one.
-    lobe.x = lobe.axis.weight * (l2 > VNDF_R(0.0) ? kx : vndf_impl_no_length(wo.z));
-    lobe.y = lobe.axis.weight * ky;
-    return lobe;
-}
 
 // Twice the projected area that wo sees, z + t.
 VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
@@ -90,62 +68,20 @@ struct vndf_impl_vector {
     VNDF_REAL x, y, z;
 };
 
-// The point on the cap, e: its height z, R^2 = |e|^2, what of it is more than l2 = x^2 + y^2, and the sum of both.
-struct vndf_impl_cap_point {
-    VNDF_REAL z, square, excess, both;
-};
-// excess = z (2 z_v - z), and the other form where that cancels.
-VNDF_FN struct vndf_impl_cap_point vndf_impl_cap_point_of(struct vndf_impl_axis v, VNDF_REAL l2, VNDF_REAL u2,
-                                                          VNDF_REAL rest) {
-    struct vndf_impl_cap_point p;
-    VNDF_REAL height2 = v.height * v.height;
-    p.z = rest * v.height;
-    p.square = u2 * VNDF_FMA(rest, height2, l2);
-    VNDF_REAL level = p.z * VNDF_FMA(VNDF_R(2.0), v.z, -p.z), steep = rest * VNDF_FMA(u2, height2, -l2);
-    p.excess = v.level ? level : steep;
-    p.both = p.square + l2;
-    return p;
-}
-
-// The half vector e + (x, y), e at the azimuth u1. Both parts nearly cancel where e is opposite to (x, y): the sum is exact
-// there, but for the length that e has by rounding, |e|^2 - l2 = (e - (x, y)) . (e + (x, y)), which is corrected to the one it
-// should have.
-VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, struct vndf_impl_cap_point p,
-                                                  VNDF_REAL u1) {
+// e + (x, y), e at azimuth u1 and height z, |e|^2 = square. Where the two nearly cancel, only the rounding of |e| is wrong:
+// |e|^2 - l2 = z (2 z_v - z), or `steep` where that cancels, corrects it.
+VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_REAL l2, VNDF_REAL u1,
+                                                  VNDF_REAL z, VNDF_REAL square, VNDF_REAL steep) {
     struct vndf_impl_vector h;
-    VNDF_REAL radius = VNDF_SQRT(p.square);
+    VNDF_REAL radius = VNDF_SQRT(square);
     VNDF_REAL ex = radius * vndf_impl_circle_cos(u1), ey = radius * vndf_impl_circle_sin(u1);
-    VNDF_REAL hx = ex + v.x, hy = ey + v.y;
-    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -p.excess)) / p.both;
+    VNDF_REAL hx = ex + v.x, hy = ey + v.y,
+              excess = v.axis.level ? z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -z) : steep;
+    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (square + l2);
     h.x = VNDF_FMA(-error, ex, hx);
     h.y = VNDF_FMA(-error, ey, hy);
-    h.z = p.z;
+    h.z = z;
     return h;
-}
-
-// The plain cap.
-VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
-    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), l2 = VNDF_FMA(v.x, v.x, v.y * v.y);
-    return vndf_impl_cap_sum(v, vndf_impl_cap_point_of(v.axis, l2, u2, VNDF_R(1.0) - u2), u1);
-}
-
-// The normal of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2), g = (alpha_x h.x, alpha_y h.y,
-// h.z): from the length that h has, not from the one it should have.
-VNDF_FN struct vndf_impl_sample vndf_impl_cap_normal(struct vndf_ggx_lobe v, struct vndf_impl_vector h) {
-    struct vndf_impl_sample m;
-    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
-    VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
-    // Only a wo whose length has left the range of numbers has none.
-    int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
-    m.x = defined ? gx * rcp : VNDF_R(0.0);
-    m.y = defined ? gy * rcp : VNDF_R(0.0);
-    m.z = defined ? h.z * rcp : VNDF_R(1.0);
-    VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.axis.height * (v.alpha_x * v.alpha_y));
-    // At wo = -z, where nothing is visible, the height is 0, and the normal on the horizon.
-    m.pdf = defined && v.axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return m;
 }
 
 // What the maps by disks and slopes need of a lobe: the azimuth of v, and of theta its cosine z, its sine, P = 1 + z and Q = 1

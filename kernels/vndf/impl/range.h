@@ -6,19 +6,18 @@
 
 VNDF_BEGIN
 
-// alpha within [VNDF_ALPHA_MIN, VNDF_ALPHA_MAX]: below, a float direction cannot tell the lobe from a mirror; above, squares
-// would leave the range of numbers. NaN counts as the least.
+// alpha within [1e-8, 1e3]; NaN counts as the least.
 VNDF_FN VNDF_REAL vndf_impl_alpha(VNDF_REAL alpha) {
     VNDF_REAL low = alpha > VNDF_ALPHA_MIN ? alpha : VNDF_ALPHA_MIN;
     return low < VNDF_ALPHA_MAX ? low : VNDF_ALPHA_MAX;
 }
-// The same, the ends in the other order: alpha_x and alpha_y by one form would be packed (see vndf_impl_view_of).
+// The same, the ends in the other order: two of one form would be packed by LLVM.
 VNDF_FN VNDF_REAL vndf_impl_alpha_y(VNDF_REAL alpha) {
     VNDF_REAL high = alpha > VNDF_ALPHA_MAX ? VNDF_ALPHA_MAX : alpha;
     return high > VNDF_ALPHA_MIN ? high : VNDF_ALPHA_MIN;
 }
 
-// u within [VNDF_U_MIN, VNDF_U_MAX]: u = 1 is a true singularity of several maps, u = 0 an infinite slope.
+// u within (0, 1): u = 1 is a singularity of several maps, u = 0 an infinite slope.
 VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
     VNDF_REAL low = u > VNDF_U_MIN ? u : VNDF_U_MIN;
     return low < VNDF_U_MAX ? low : VNDF_U_MAX;
