@@ -63,9 +63,32 @@ std::string commented(std::string_view text) {
     return lay_out_comment(lines, 0);
 }
 
+// Which program wrote it, and how.
+std::string stamp(const Options& options) {
+    std::string text =
+        fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
+    const auto add = [&](std::string_view option, std::string_view value, std::string_view usual) {
+        if (value != usual) text += fmt::format(" {} {}", option, value);
+    };
+    for (const auto& [name, language] : languages())
+        if (language == options.language) add("--as", name, "opencl");
+    add("--math", to_string(options.math), "strict");
+    add("--real", to_string(options.real), "float");
+    add("--prefix", options.prefix, "vndf_");
+    return options.selftest ? text + " --selftest" : text;
+}
+
+void require_language_with_policy(const Options& options) {
+    if (options.math != runtime::Math::native) return;
+    for (const auto& [name, language] : languages())
+        if (language == options.language && name != "opencl" && name != "string")
+            throw InputError(fmt::format(
+                "--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", name));
+}
+
 // What the user may want to know before the functions.
 std::string introduction(const Options& options) {
-    std::string out = commented(options.stamp) + "//\n" + commented(licence_files().at(0).text) + "//\n";
+    std::string out = commented(stamp(options)) + "//\n" + commented(licence_files().at(0).text) + "//\n";
     out += commented(
         "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from "
         "the\n"
@@ -122,7 +145,7 @@ std::string as_string(const std::string& source, const Options& options) {
     }
     lines.pop_back();
     if (lines.back() == ',') lines.pop_back();
-    return commented(options.stamp) +
+    return commented(stamp(options)) +
            fmt::format("#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n{}\n{}{};\n\n#endif\n",
                        array ? "/* Lines, since compilers limit the length of one literal. */\n"
                                "static const char* const vndf_source[] = {"
@@ -131,6 +154,15 @@ std::string as_string(const std::string& source, const Options& options) {
 }
 
 }  // namespace
+
+const std::map<std::string, Language>& languages() {
+    static const std::map<std::string, Language> all = {{"opencl", Language::opencl},
+                                                        {"c", Language::c},
+                                                        {"c++", Language::cpp},
+                                                        {"cuda", Language::cuda},
+                                                        {"string", Language::string}};
+    return all;
+}
 
 std::string resolve(const std::string& name) {
     const std::vector<std::string> all = all_names();
@@ -167,6 +199,9 @@ void require_prefix(const std::string& prefix) {
 }
 
 std::string emit(const Options& options) {
+    runtime::require_policy(options.math, options.real);
+    require_language_with_policy(options);
+    require_prefix(options.prefix);
     const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
