@@ -1,6 +1,6 @@
-# cmake -DOUTPUT=sources.h -DTEMPLATE=sources.h.in -DKERNELS=folder -P sources.cmake: the headers of KERNELS/vndf as strings
-# of C, each after those that it includes. A script, since it has to run where nothing else is built: in a user's project,
-# and when compiling for another machine.
+# cmake -DOUTPUT=sources.h -DTEMPLATE=sources.h.in -DVERSION=0.1 -DKERNELS=folder -P sources.cmake: the headers of
+# KERNELS/vndf as strings of C, each after those that it includes. A script, since it has to run where nothing else is
+# built: in a user's project, and when compiling for another machine.
 cmake_minimum_required(VERSION 3.25)
 set(names "")
 set(texts "")

@@ -1,5 +1,6 @@
 // A rough mirror under a white sky, on the CPU without OpenCL: which part of the light does it send on? Every sampled
-// direction brings its weight, brdf * cos(theta) / density; their mean is the answer. Exit status 0 if it is the known one.
+// direction brings its weight, brdf * cos(theta) / density; their mean is the answer. Exit status 0 if it is the known
+// one.
 //
 // CMake: find_package(clvndf) and the target clvndf::vndf. Without: c++ loop.cpp $(pkg-config --cflags --libs clvndf)
 #include <cmath>

@@ -1,5 +1,5 @@
-// What the Python package calls; clvndf/_library.py declares it again. Text that is returned lasts until the thread's next
-// call. A null pointer stands for a failure, which clvndf_error() tells.
+// What the Python package calls; clvndf/_library.py declares it again. Text that is returned lasts until the thread's
+// next call. A null pointer stands for a failure, which clvndf_error() tells.
 #include <string>
 #include <vector>
 

@@ -118,6 +118,8 @@ class Text(unittest.TestCase):
             self.assertIs(getattr(clvndf, function.name.removeprefix("vndf_")), function)
             self.assertIn(function.name.removeprefix("vndf_"), dir(clvndf))
         self.assertIn("return: unit vector wm", clvndf.ggx_sample_wm_dupuy2023_with_pdf.doc)
+        self.assertIn("NumPy: wo (..., 3), alpha (..., 2), u (..., 2) -> (..., 3), density (...); real=",
+                      clvndf.ggx_sample_wm_dupuy2023_with_pdf.__doc__)
         self.assertEqual(clvndf.function("ggx_g2_sep").facts["unit"], "eps")
 
 

@@ -13,9 +13,9 @@ With NumPy every function of `functions()` is there by its name, with or without
     wm = clvndf.ggx_sample_wm_dupuy2023(wo, alpha, u)
     pdf = clvndf.ggx_pdf_wm(wo, wm, alpha)
 
-Directions are unit vectors that point away from the surface, in a frame with z along its normal: wo towards the viewer, wi the
-sampled one, wm the normal of the microfacet. alpha: parameters of the distribution, no perceptual roughness. u: uniform in
-[0, 1]. `print(clvndf.ggx_pdf_wm.doc)` says what holds for which arguments.
+Directions are unit vectors that point away from the surface, in a frame with z along its normal: wo towards the viewer,
+wi the sampled one, wm the normal of the microfacet. alpha: parameters of the distribution, no perceptual roughness. u:
+uniform in [0, 1]. `help(clvndf.ggx_pdf_wm)` says what holds for which arguments, and their shapes.
 """
 from clvndf import _library
 from clvndf._function import Argument, Function, function, functions

@@ -1,4 +1,4 @@
-"""The registered functions: what is known of each, and their evaluation on NumPy arrays by the headers compiled as C++."""
+"""The registered functions: what is known of each, and evaluation on NumPy arrays by the headers compiled as C++."""
 import dataclasses
 import functools
 import inspect
@@ -16,20 +16,9 @@ class Argument:
     size: int  # of components; 1: a number
 
 
+# A function of the library. Its own documentation is that of the kernel.
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Function:
-    """A function of the library. Call it with arrays:
-
-        result = f(wo, alpha, u, real="float", math="strict")
-
-    An argument that is a vector has the shape (..., 3) or (..., 2), one that is a number the shape (...); everything before
-    is broadcast. real: "float" or "double", what is computed in; arguments are rounded to it first, and the result is of that
-    dtype, float32 or float64. math: "strict", with the bits of every device that keeps them, or "builtin". A function of a lobe
-    (wo and alpha set up once) takes wo and alpha here.
-
-    The result has the shape (..., 3) for a direction, (..., 2) for random numbers, (...) for a number; a function whose name
-    ends in _with_pdf returns a pair (direction, density).
-    """
     name: str
     kind: str  # sampler, density, term, inverse, geometry, lobe
     ndf: str  # ggx, beckmann, any
@@ -43,9 +32,13 @@ class Function:
 
     @property
     def __doc__(self):
-        return f"{self.name}({self.signature})\n\n{self.doc}"
+        shapes = ", ".join(f"{a.name} {_shape(a.size)}" for a in self.arguments)
+        result = _shape(len(self.outputs) - (self.outputs[-1:] == ("pdf",)))
+        result += ", density (...)" if self.outputs[-1:] == ("pdf",) else ""
+        numpy_form = f'\n\nNumPy: {shapes} -> {result}; real="float", "double"; math="strict", "builtin"'
+        return f"{self.name}({self.signature})\n\n{self.doc}{numpy_form if self.arguments else ''}"
 
-    @property
+    @functools.cached_property
     def __signature__(self):
         both, keyword = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY
         return inspect.Signature([*(inspect.Parameter(a.name, both) for a in self.arguments),
@@ -56,6 +49,16 @@ class Function:
         return f"<clvndf.{self.name.removeprefix('vndf_')}({', '.join(a.name for a in self.arguments)})>"
 
     def __call__(self, *args, **named):
+        """Evaluates it on arrays: f(wo, alpha, u), by position or by name.
+
+        An argument that is a vector has the shape (..., 3) or (..., 2), one that is a number the shape (...); what
+        stands before the components is broadcast. real="float" (default) or "double": arguments are rounded to it, and
+        the result is float32 or float64. math="strict" (default), which has the bits of every device that keeps them,
+        or "builtin". A function of a lobe, which kernels set up once from wo and alpha, takes wo and alpha here.
+
+        The result has the shape (..., 3) for a direction, (..., 2) for random numbers, (...) for a number; a function
+        whose name ends in _with_pdf returns a pair: directions and densities.
+        """
         if not self.arguments:
             raise TypeError(f"{self.name}: a lobe has no form in NumPy; functions of lobes take {self.signature} here")
         try:
@@ -65,7 +68,8 @@ class Function:
         call.apply_defaults()
         real, math = call.arguments.pop("real"), call.arguments.pop("math")
         if math == "native":
-            raise ValueError(f"{self.name}: math is 'native', which exists on devices alone; allowed are 'strict', 'builtin'")
+            raise ValueError(f"{self.name}: math is 'native', which exists on devices alone; "
+                             "allowed are 'strict', 'builtin'")
         policy, number = _library.choice("math", math, _library.MATH), _library.choice("real", real, _library.REAL)
         dtype = numpy.dtype(numpy.float64 if real == "double" else numpy.float32)
         arrays = [self._array(argument, call.arguments[argument.name], dtype) for argument in self.arguments]
@@ -91,8 +95,13 @@ class Function:
         if argument.size == 1:
             return array.astype(dtype)[..., None]
         if array.shape[-1:] != (argument.size,):
-            raise ValueError(f"{self.name}: {argument.name} has the shape {array.shape}; (..., {argument.size}) is wanted")
+            raise ValueError(f"{self.name}: {argument.name} has the shape {array.shape}; "
+                             f"(..., {argument.size}) is wanted")
         return array.astype(dtype)
+
+
+def _shape(size):
+    return "(...)" if size == 1 else f"(..., {size})"
 
 
 def _vectors(components):
@@ -114,7 +123,8 @@ def _comments():
     """The comment above each public function of the headers; a _with_pdf form has that of its plain form before its own."""
     found = {}
     for path in sorted((_library.FOLDER / "include").rglob("*.h")):
-        for lines, name in re.findall(r"((?:^//.*\n)+)VNDF_FN [\w ]+ (vndf_(?!impl_)\w+)\(", path.read_text("utf-8"), re.M):
+        pattern = r"((?:^//.*\n)+)VNDF_FN [\w ]+ (vndf_(?!impl_)\w+)\("
+        for lines, name in re.findall(pattern, path.read_text("utf-8"), re.M):
             found[name] = re.sub("^// ?", "", lines, flags=re.M).rstrip()
     return {name: found.get(name.removesuffix("_with_pdf"), "") + "\n" + own if name.endswith("_with_pdf") else own
             for name, own in found.items()}
@@ -126,7 +136,8 @@ def functions():
     comments = _comments()
     known = []
     for entry in json.loads(_library.registry()):
-        facts = {key: entry[key] for key in ("density", "method", "domain", "support", "sampler", "unit", "type") if key in entry}
+        keys = ("density", "method", "domain", "support", "sampler", "unit", "type")
+        facts = {key: entry[key] for key in keys if key in entry}
         known.append(Function(*(entry[key] for key in ("name", "kind", "ndf", "signature", "source")),
                               _arguments(entry.get("inputs", ())), tuple(entry.get("outputs", ())),
                               entry.get("bounds", {}), facts, comments.get(entry["name"], "")))
@@ -134,7 +145,7 @@ def functions():
 
 
 def function(name):
-    """The function of this name, with or without vndf_, or of any part that no other name has. ValueError if there is none, or
-    several."""
+    """The function of this name, with or without vndf_, or of any part that no other name has. ValueError if there is
+    none, or several."""
     full = _library.resolve(name.encode())
     return next(known for known in functions() if known.name == full)
