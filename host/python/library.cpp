@@ -34,6 +34,10 @@ CLVNDF_PYTHON const char* clvndf_error() {
     return error.c_str();
 }
 
+CLVNDF_PYTHON const char* clvndf_version() {
+    return CLVNDF_VERSION;
+}
+
 CLVNDF_PYTHON const char* clvndf_registry() {
     return text_of(registry_json);
 }

@@ -83,6 +83,9 @@ class Evaluation(unittest.TestCase):
 
 
 class Text(unittest.TestCase):
+    def test_version(self):
+        self.assertEqual(f"clvndf {clvndf.__version__}\n", command("--version"))
+
     def test_emitted_is_what_the_command_emits(self):
         self.assertEqual(clvndf.emit("ggx_g1", "vndf_reflect"), command("emit", "ggx_g1", "vndf_reflect"))
         self.assertEqual(clvndf.emit("ggx_g1", language="c++", prefix="p_", real="double", math="builtin", selftest=True),

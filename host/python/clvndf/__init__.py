@@ -20,6 +20,7 @@ uniform in [0, 1]. `help(clvndf.ggx_pdf_wm)` says what holds for which arguments
 from clvndf import _library
 from clvndf._function import Argument, Function, function, functions
 
+__version__ = _library.version()
 __all__ = ["Argument", "Function", "emit", "function", "functions", "headers", "include_dir", "options", "text"]
 
 

@@ -26,6 +26,7 @@ def _text(name, *arguments):
 
 _error = _library.clvndf_error
 _error.argtypes, _error.restype = (), ctypes.c_char_p
+version = _text("version")
 registry = _text("registry")
 text = _text("text")
 options = _text("options", ctypes.c_int, ctypes.c_int, ctypes.c_bool, ctypes.c_bool)
