@@ -4,10 +4,10 @@
 #
 #   packages.sh [--quick] PROJECT BUILD WORK
 #
-# PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is made here. The bare system (as root, with
-# debootstrap) is made in WORK/bare, of the release that this one is.
-# Exit status: 0 all is well, 1 not, 2 wrong arguments or nothing built; 77 all is well as far as could be tried: what is
-# missing is named.
+# PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is made here. The bare system (as root,
+# with debootstrap) is made in WORK/bare, of the release that this one is.
+# Exit status: 0 all is well, 1 not, 2 wrong arguments or nothing built; 77 all is well as far as could be tried: what
+# is missing is named.
 set -u
 
 cannot() {
@@ -53,7 +53,7 @@ says() {
     grep -qF -e "$text" "$work/log" || failed "no \"$text\": $*"
 }
 
-prefix=$work/moved
+prefix=$work/moved version=$(sed -n 's/^project(clvndf VERSION \([0-9.]*\).*/\1/p' "$project/CMakeLists.txt")
 installed() {
     well cmake --install "$build" --prefix "$work/first"
     mv "$work/first" "$prefix"
@@ -74,8 +74,8 @@ installed() {
             COMP_WORDS=(clvndf "$2") COMP_CWORD=1; _clvndf; [ "${COMPREPLY[*]}" = "$2" ]' - "$prefix" "$command" ||
             failed "bash does not complete $command"
     done
-    grep -qF '"'"$(sed -n 's/^project(clvndf VERSION \([0-9.]*\).*/\1/p' "$project/CMakeLists.txt")"'"' \
-        "$prefix/include/clvndf/sources.h" || failed "clvndf/sources.h has another version"
+    grep -qF "CLVNDF_VERSION \"$version\"" "$prefix/include/clvndf/sources.h" ||
+        failed "clvndf/sources.h has another version"
 }
 
 cmake_examples() {
@@ -87,13 +87,13 @@ cmake_examples() {
     says "reflected: " "$work/build/mirror"
     says "0 of the strict object" "$work/build/strict"
     mkdir -p "$work/version"
-    for version in 0.1 0.2 1; do
+    for wish in 0.1 0.2 1; do
         printf 'cmake_minimum_required(VERSION 3.16)\nproject(p LANGUAGES NONE)\nfind_package(clvndf %s REQUIRED)\n' \
-            $version >"$work/version/CMakeLists.txt"
+            $wish >"$work/version/CMakeLists.txt"
         cmake -S "$work/version" -B "$work/version/build" -D CMAKE_PREFIX_PATH="$prefix" >"$work/log" 2>&1
         [ $? = 0 ] && found=yes || found=no
-        [ $version = 0.1 ] && wanted=yes || wanted=no
-        [ $found = $wanted ] || failed "find_package(clvndf $version): found: $found"
+        [ $wish = 0.1 ] && wanted=yes || wanted=no
+        [ $found = $wanted ] || failed "find_package(clvndf $wish): found: $found"
     done
 }
 
@@ -144,20 +144,27 @@ debian_package() {
     [ "$(id -u)" = 0 ] || { skipped "a bare system: not root"; return; }
     have debootstrap "a bare system" || return
     bare=$work/bare
-    trap 'umount "$bare/proc" "$bare/dev" 2>/dev/null' EXIT
+    trap 'umount "$bare/proc" "$bare/sys" "$bare/dev" 2>/dev/null' EXIT
     [ -f "$bare/etc/debian_version" ] ||
         well debootstrap --variant=minbase "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$bare"
-    mount -t proc proc "$bare/proc" && mount --bind /dev "$bare/dev" || { skipped "a bare system: no mounts"; return; }
+    # PoCL asks /sys for processors and memory.
+    if ! mount -t proc proc "$bare/proc" || ! mount -t sysfs sys "$bare/sys" || ! mount --bind /dev "$bare/dev"; then
+        skipped "a bare system: no mounts"
+        return
+    fi
     cp "$package" "$bare/clvndf.deb"
     cp -r "$examples" "$bare/"
     cp /etc/resolv.conf "$bare/etc/"
-    on_bare() { chroot "$bare" env -u OCL_ICD_VENDORS DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
+    on_bare() {
+        chroot "$bare" env -u OCL_ICD_VENDORS DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"
+    }
     well on_bare apt-get -q update
     well on_bare apt-get -qy install --reinstall --no-install-recommends /clvndf.deb pocl-opencl-icd
-    says "clvndf $(sed -n 's/^project(clvndf VERSION \([0-9.]*\).*/\1/p' "$project/CMakeLists.txt")" on_bare clvndf --version
+    says "clvndf $version" on_bare clvndf --version
     says "vndf_ggx_g1(" on_bare clvndf emit ggx_g1
     says "pass" on_bare clvndf check --quick --only vndf_reflect
-    well on_bare apt-get -qy install --no-install-recommends g++ cmake make pkg-config ocl-icd-opencl-dev opencl-clhpp-headers
+    well on_bare apt-get -qy install --no-install-recommends g++ cmake make pkgconf ocl-icd-opencl-dev \
+        opencl-clhpp-headers
     well on_bare sh -c 'gcc /examples/mirror.c $(pkg-config --cflags --libs clvndf OpenCL) -o /mirror'
     says "reflected: " on_bare /mirror
     well on_bare cmake -S /examples -B /build

@@ -31,18 +31,18 @@ def random_arguments(function, n):
 
 class Evaluation(unittest.TestCase):
     def test_every_function_has_the_bits_of_the_command(self):
+        listed = json.loads(command("list", "--json"))
+        self.assertEqual([f.name for f in clvndf.functions()], [entry["name"] for entry in listed])
+        columns = {entry["name"]: entry.get("inputs") for entry in listed}
         known = [f for f in clvndf.functions() if f.kind != "lobe"]
-        self.assertEqual([f.name for f in known], [e["name"] for e in json.loads(command("list", "--json"))
-                                                   if e["kind"] != "lobe"])
         for i, function in enumerate(known):
             real, math = ("float", "double")[i % 2], ("strict", "builtin")[i // 2 % 2]
             arguments = list(random_arguments(function, 20))
             result = function(*arguments, real=real, math=math)
             table = numpy.column_stack(result if isinstance(result, tuple) else [result])
-            columns = next(e["inputs"] for e in json.loads(command("list", "--json")) if e["name"] == function.name)
-            rows = [",".join(columns)] + [",".join(float(x).hex() for x in row) for row in numpy.column_stack(arguments)]
+            rows = [",".join(float(x).hex() for x in row) for row in numpy.column_stack(arguments)]
             lines = command("eval", function.name, "--on", "host", "--real", real, "--math", math, "--hex",
-                            input="\n".join(rows) + "\n").splitlines()[1:]
+                            input="\n".join([",".join(columns[function.name]), *rows, ""])).splitlines()[1:]
             expected = numpy.array([[float.fromhex(x) for x in line.split(",")] for line in lines])
             self.assertEqual(table.dtype, {"float": numpy.float32, "double": numpy.float64}[real])
             numpy.testing.assert_array_equal(table.astype(float), expected, function.name)
@@ -73,7 +73,8 @@ class Evaluation(unittest.TestCase):
                 (TypeError, "u holds complex128; real numbers are wanted", lambda f: f(WO, ALPHA, [1j, 0])),
                 (TypeError, "missing a required argument: 'u'", lambda f: f(WO, ALPHA)),
                 (ValueError, "real is 'half'; allowed are 'float', 'double'", lambda f: f(WO, ALPHA, U, real="half")),
-                (ValueError, "math is 'native', which exists on devices alone", lambda f: f(WO, ALPHA, U, math="native")),
+                (ValueError, "math is 'native', which exists on devices alone", 
+                 lambda f: f(WO, ALPHA, U, math="native")),
                 (ValueError, "unknown function 'nosuch'; the nearest names are", lambda f: clvndf.function("nosuch")),
                 (ValueError, "'dupuy2023' is ambiguous: 4 functions", lambda f: clvndf.function("dupuy2023")),
                 (AttributeError, "has no attribute 'ggx_nosuch'", lambda f: clvndf.ggx_nosuch),
@@ -88,9 +89,9 @@ class Text(unittest.TestCase):
 
     def test_emitted_is_what_the_command_emits(self):
         self.assertEqual(clvndf.emit("ggx_g1", "vndf_reflect"), command("emit", "ggx_g1", "vndf_reflect"))
-        self.assertEqual(clvndf.emit("ggx_g1", language="c++", prefix="p_", real="double", math="builtin", selftest=True),
-                         command("emit", "ggx_g1", "--as", "c++", "--prefix", "p_", "--real", "double", "--math", "builtin",
-                                 "--selftest"))
+        self.assertEqual(
+            clvndf.emit("ggx_g1", language="c++", prefix="p_", real="double", math="builtin", selftest=True),
+            command("emit", "ggx_g1", *"--as c++ --prefix p_ --real double --math builtin --selftest".split()))
         for words, arguments in [("no function named", {}), ("language is 'glsl'", {"language": "glsl"}),
                                  ("--prefix '1'", {"prefix": "1"}), ("native", {"math": "native", "language": "c"})]:
             with self.assertRaisesRegex(ValueError, words):
