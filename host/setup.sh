@@ -4,14 +4,14 @@
 #
 #   sh host/setup.sh            install what is missing (as root, or through sudo)
 #   sh host/setup.sh --devices  that, and the devices and compilers that only some tests use and skip without: Oclgrind,
-#                               rusticl, clang
+#                               rusticl, clang, PyOpenCL, dpkg-dev
 #   sh host/setup.sh --list     print the package names and do nothing
 #
 # Exit status: 0 everything is there, 1 the installation failed, 2 unknown system or option, 3 no rights.
 set -eu
 
 packages="
-    g++ cmake ninja-build
+    g++ cmake ninja-build pkgconf
     pocl-opencl-icd ocl-icd-libopencl1 ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers
     librandom123-dev libboost-dev libboost-wave-dev libboost-thread-dev libcli11-dev nlohmann-json3-dev libfmt-dev
     catch2 libbenchmark-dev python3-matplotlib python3-jsonschema
@@ -53,7 +53,7 @@ esac
 
 # rusticl's kernel library is that of the LLVM that Mesa was built with; Debian 13 has no Oclgrind.
 if [ -n "$devices" ]; then
-    packages="$packages clang mesa-opencl-icd"
+    packages="$packages clang mesa-opencl-icd python3-pyopencl dpkg-dev"
     [ "$system" = "debian 12" ] && packages="$packages libclc-15 oclgrind" || packages="$packages libclc-19"
 fi
 

@@ -25,19 +25,21 @@ cannot() {
     status=1
 }
 
-for script in oclgrind.sh "rusticl.sh --quick" "same_bits.sh --quick"; do
+for script in oclgrind.sh "rusticl.sh --quick" "same_bits.sh --quick" "packages.sh --quick"; do
     cannot "usage: ${script%% *}" "$tests"/$script
     cannot "usage: ${script%% *}" "$tests"/$script "$project"
-    cannot "$empty is not the source folder" "$tests"/$script "$empty" "$build" $(case $script in same*) echo "$empty/work" ;; esac)
+    cannot "$empty is not the source folder" "$tests"/$script "$empty" "$build" $(case $script in same* | pack*) echo "$empty/work" ;; esac)
 done
 cannot "no $empty/clvndf: build it first" "$tests/oclgrind.sh" "$project" "$empty"
 ln -s "$build/clvndf" "$empty/clvndf"
 cannot "no $empty/clvndf_tests: build it first" "$tests/oclgrind.sh" "$project" "$empty"
 rm "$empty/clvndf"
+cannot "no $empty/clvndf: build it first" "$tests/packages.sh" "$project" "$empty" "$empty/work"
 cannot "no $empty/clvndf: build it first" "$tests/rusticl.sh" "$project" "$empty"
 cannot "no function nosuch" "$tests/rusticl.sh" "$project" "$build" nosuch
 cannot "no $empty/host/libclvndf_host.a: build it first" "$tests/same_bits.sh" "$project" "$empty" "$empty/work"
 : >"$empty/file"
+cannot "$empty/file/work: cannot make this folder" "$tests/packages.sh" "$project" "$build" "$empty/file/work"
 cannot "$empty/file/work: cannot make this folder" "$tests/same_bits.sh" "$project" "$build" "$empty/file/work"
 for script in kernels/names_test.sh kernels/opencl_lint_test.sh kernels/switches_test.sh; do
     cannot "no headers in" "$tests/$script"

@@ -1,15 +1,10 @@
 // clvndf emit
-#include <array>
-#include <map>
 #include <memory>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "emit/emit.h"
-#include "error.h"
 
 namespace vndf::cli {
 namespace {
@@ -20,38 +15,14 @@ struct Emit {
     bool selftest = false;
 };
 
-const std::map<std::string, emit::Language>& languages() {
-    using emit::Language;
-    static const std::map<std::string, Language> all = {{"opencl", Language::opencl},
-                                                        {"c", Language::c},
-                                                        {"c++", Language::cpp},
-                                                        {"cuda", Language::cuda},
-                                                        {"string", Language::string}};
-    return all;
-}
-
 emit::Options options_of(const Emit& e) {
     emit::Options options;
     for (const std::string& name : e.names) options.functions.push_back(emit::resolve(name));
-    options.language = languages().at(e.as);
+    options.language = emit::languages().at(e.as);
     options.math = math_named(e.math);
     options.real = real_named(e.real);
-    runtime::require_policy(options.math, options.real);
-    const bool opencl = e.as == "opencl" || e.as == "string";
-    if (!opencl && options.math == runtime::Math::native)
-        throw InputError(fmt::format(
-            "--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", e.as));
-    emit::require_prefix(e.prefix);
     options.prefix = e.prefix;
     options.selftest = e.selftest;
-    options.stamp =
-        fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
-    for (const auto& [option, value, usual] : {std::array{"--as", e.as.c_str(), "opencl"},
-                                               {"--math", e.math.c_str(), "strict"},
-                                               {"--real", e.real.c_str(), "float"},
-                                               {"--prefix", e.prefix.c_str(), "vndf_"}})
-        if (std::string_view(value) != usual) options.stamp += fmt::format(" {} {}", option, value);
-    if (e.selftest) options.stamp += " --selftest";
     return options;
 }
 
@@ -76,7 +47,7 @@ void add_emit(CLI::App& app, Common& common) {
         ->check(no_option);
     command->add_option("-o,--output", e->output, "file to write, or -")->capture_default_str();
     command->add_option("--as", e->as, "language: opencl, c, c++, cuda, or string (OpenCL C in a C string)")
-        ->check(CLI::IsMember(languages()))
+        ->check(CLI::IsMember(emit::languages()))
         ->capture_default_str();
     add_switches(*command, e->math, e->real);
     command->add_option("--prefix", e->prefix, "what every name begins with")->capture_default_str();

@@ -67,9 +67,32 @@ std::string commented(std::string_view text) {
     return lay_out_comment(paragraphs, 0);
 }
 
+// Which program wrote it, and how.
+std::string stamp(const Options& options) {
+    std::string text =
+        fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
+    const auto add = [&](std::string_view option, std::string_view value, std::string_view usual) {
+        if (value != usual) text += fmt::format(" {} {}", option, value);
+    };
+    for (const auto& [name, language] : languages())
+        if (language == options.language) add("--as", name, "opencl");
+    add("--math", to_string(options.math), "strict");
+    add("--real", to_string(options.real), "float");
+    add("--prefix", options.prefix, "vndf_");
+    return options.selftest ? text + " --selftest" : text;
+}
+
+void require_language_with_policy(const Options& options) {
+    if (options.math != runtime::Math::native) return;
+    for (const auto& [name, language] : languages())
+        if (language == options.language && name != "opencl" && name != "string")
+            throw InputError(fmt::format(
+                "--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", name));
+}
+
 // What the user may want to know before the functions.
 std::string introduction(const Options& options) {
-    std::string out = commented(options.stamp) + "//\n" + commented(licence_files().at(0).text) + "//\n";
+    std::string out = commented(stamp(options)) + "//\n" + commented(licence_files().at(0).text) + "//\n";
     out += commented(fmt::format(
         "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors away from the surface, "
         "z along its normal. alpha: no perceptual roughness. u: uniform in [0, 1]. eps: {}. VNDF_FN, how "
@@ -150,11 +173,20 @@ std::string as_string(const std::string& source, const Options& options) {
                 "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#endif\n"
                 "static const char vndf_source[] =\n" +
                     lines + ";\n#ifdef __GNUC__\n#pragma GCC diagnostic pop\n#endif\n";
-    return commented(options.stamp) + "#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n" + declaration +
+    return commented(stamp(options)) + "#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n" + declaration +
            "\n#endif\n";
 }
 
 }  // namespace
+
+const std::map<std::string, Language>& languages() {
+    static const std::map<std::string, Language> all = {{"opencl", Language::opencl},
+                                                        {"c", Language::c},
+                                                        {"c++", Language::cpp},
+                                                        {"cuda", Language::cuda},
+                                                        {"string", Language::string}};
+    return all;
+}
 
 std::string resolve(const std::string& name) {
     const std::vector<std::string> all = all_names();
@@ -191,6 +223,9 @@ void require_prefix(const std::string& prefix) {
 }
 
 std::string emit(const Options& options) {
+    runtime::require_policy(options.math, options.real);
+    require_language_with_policy(options);
+    require_prefix(options.prefix);
     const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));

@@ -1,6 +1,7 @@
 // One self-contained source file with the functions asked for and what they use.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct Options {
     runtime::Real real = runtime::Real::f32;
     std::string prefix = "vndf_";
     bool selftest = false;
-    std::string stamp;  // which program wrote it, and how
 };
+
+// The languages by the names that users know them by.
+const std::map<std::string, Language>& languages();
 
 // The full name of the one function that `name` stands for: its name with or without vndf_, or a part that no other function
 // has. Throws InputError if there is none, or several.
@@ -28,7 +31,7 @@ std::string resolve(const std::string& name);
 // Throws InputError if names that begin so would not be names, or would be those of a language.
 void require_prefix(const std::string& prefix);
 
-// The text of the file; the same for the same options.
+// The text of the file; the same for the same options. Throws InputError if they contradict each other.
 std::string emit(const Options& options);
 
 // The project's licence, as one file.

@@ -5,10 +5,8 @@ namespace {
 
 std::string all_options(const Device& device, Math math, Real real, const ProgramOptions& options) {
     std::string text =
-        fmt::format("-cl-std=CL1.2 -DVNDF_REAL={} -DVNDF_MATH={}", to_string(real), to_string(math));
-    if (device.correct_divide_sqrt && options.correct_divide_sqrt)
-        text += " -cl-fp32-correctly-rounded-divide-sqrt";
-    if (!device.fma) text += " -DVNDF_SOFTWARE_FMA=1";
+        "-cl-std=CL1.2 " + runtime::build_options(math, real, device.fma,
+                                                  device.correct_divide_sqrt && options.correct_divide_sqrt);
     if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
     if (!options.build_options.empty()) text += ' ' + options.build_options;
     return text;

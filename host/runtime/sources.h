@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/evaluator.h"
+
 namespace vndf::runtime {
 
 struct SourceFile {
@@ -36,5 +38,9 @@ struct Assembly {
 // DeviceError if a path is unknown, or if a substitution's text is not found exactly once.
 std::string assemble(std::string_view path, const Assembly& assembly = {},
                      const std::vector<SourceFile>& files = embedded_sources());
+
+// The build options of a policy, for a device with a hardware fma or without, which rounds / and sqrt correctly on request
+// or does not. clvndf/sources.h has the same for users.
+std::string build_options(Math math, Real real, bool fma, bool correct_divide_sqrt);
 
 }  // namespace vndf::runtime

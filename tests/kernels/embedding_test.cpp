@@ -2,11 +2,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "clvndf/sources.h"
 #include "runtime/devices.h"
 #include "runtime/opencl.h"
+#include "runtime/sources.h"
 #include "support/catch.h"
 #include "vndf/vndf.h"
 
@@ -23,26 +27,26 @@ std::string read(const std::filesystem::path& path) {
 
 // metal.cl with the headers of kernels/vndf handed over by name.
 cl::Program build(const cl::Context& context, const cl::Device& device) {
-    std::vector<std::string> names;
     std::vector<cl::Program> headers;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "kernels/vndf")) {
-        if (entry.path().extension() != ".h") continue;
-        names.push_back(std::filesystem::relative(entry.path(), root / "kernels").generic_string());
-        headers.emplace_back(context, read(entry.path()));
-    }
     std::vector<cl_program> handles;
-    std::vector<const char*> c_names;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        handles.push_back(headers[i]());
-        c_names.push_back(names[i].c_str());
+    for (const char* text : clvndf_header_text) {
+        headers.emplace_back(context, std::string(text));
+        handles.push_back(headers.back()());
     }
     const cl::Program source(context, read(root / "tests/embedding/metal.cl"));
     const cl_device_id id = device();
-    const cl_int status = clCompileProgram(source(), 1, &id, "-cl-std=CL1.2", cl_uint(handles.size()),
-                                           handles.data(), c_names.data(), nullptr, nullptr);
+    const cl_int status = clCompileProgram(source(), 1, &id, "-cl-std=CL1.2", CLVNDF_HEADERS, handles.data(),
+                                           clvndf_header_name, nullptr, nullptr);
     INFO(source.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
     REQUIRE(status == CL_SUCCESS);
     return cl::linkProgram({source});
+}
+
+// A text as its own: without #line, and without what makes includes optional.
+std::string as_written(std::string text) {
+    for (const char* added : {"#line \\d+( \".*\")?\n", "#ifndef VNDF_ONE_TEXT\n(?=#include)"})
+        text = std::regex_replace(text, std::regex(added), "");
+    return std::regex_replace(text, std::regex("(#include \".*\"\n)#endif\n"), "$1");
 }
 
 bool same_bits(float a, float b) {
@@ -99,4 +103,37 @@ TEST_CASE("the OpenCL example builds from named headers and gives the bits of th
     }
     CHECK(different == 0);
     CHECK(reflected > n / 2);
+}
+
+TEST_CASE("the strings for users are the headers, each after those that it includes") {
+    std::set<std::string> before;
+    for (int i = 0; i < CLVNDF_HEADERS; ++i) {
+        const std::string name = clvndf_header_name[i], text = as_written(clvndf_header_text[i]);
+        CHECK(text == read(root / "kernels" / name));
+        static const std::regex include("#include \"(.*)\"");
+        for (std::sregex_iterator found(text.begin(), text.end(), include), end; found != end; ++found) {
+            const auto beside = std::filesystem::path(name).parent_path() / (*found)[1].str();
+            INFO(name << " includes " << beside);
+            CHECK(before.count(beside.lexically_normal().generic_string()) == 1);
+        }
+        before.insert(name);
+    }
+    for (const SourceFile& file : embedded_sources()) {
+        const bool header = file.path.substr(0, 13) == "kernels/vndf/";
+        INFO(file.path);
+        CHECK(before.count(std::string(file.path.substr(header ? 8 : 0))) == header);
+    }
+}
+
+TEST_CASE("the build options for users are the library's own") {
+    for (int math = 0; math < 3; ++math) {
+        for (int real = 0; real < 2; ++real) {
+            for (const cl_device_fp_config config : {CL_FP_FMA, CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT,
+                                                     CL_FP_FMA | CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT, 0}) {
+                const bool fma = config & CL_FP_FMA, correct = config & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+                CHECK(clvndf_build_options(clvndf_math(math), clvndf_real(real), config) ==
+                      build_options(Math(math), Real(real), fma, correct));
+            }
+        }
+    }
 }
