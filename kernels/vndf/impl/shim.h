@@ -239,8 +239,18 @@ typedef struct vndf_double4 {
 #define VNDF_INT int
 #endif
 #define VNDF_FAST(name) VNDF_STD(name)
-#define VNDF_FMA(a, b, c) VNDF_STD(fma)(a, b, c)
-#define VNDF_SQRT(x) VNDF_STD(sqrt)(x)
+#if VNDF_IMPL_PRECISE == 2 && defined(__clang__) && VNDF_ALLOW_FAST_MATH
+// clang++ 14 takes library functions literally in operands of a conversion alone; the two of this one cancel.
+#if VNDF_DOUBLE
+#define VNDF_IMPL_EXACTLY(x) ((double)(long double)(x))
+#else
+#define VNDF_IMPL_EXACTLY(x) ((float)(double)(x))
+#endif
+#else
+#define VNDF_IMPL_EXACTLY(x) x
+#endif
+#define VNDF_FMA(a, b, c) VNDF_IMPL_EXACTLY(VNDF_STD(fma)(a, b, c))
+#define VNDF_SQRT(x) VNDF_IMPL_EXACTLY(VNDF_STD(sqrt)(x))
 #define VNDF_SIN_2PI(x) VNDF_STD(sin)(VNDF_R(2.0) * VNDF_PI * (x))
 
 VNDF_BEGIN
