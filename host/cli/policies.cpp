@@ -14,14 +14,15 @@ namespace vndf::cli {
 namespace {
 
 struct Policies {
-    std::string device, real = "float", only, flags, json;
+    std::string device, real = "float", only, json;
+    std::optional<std::string> flags;
     bool quick = false;
 };
 
 void run_policies(const Policies& options, Common& common) {
     const auto selected = selected_by(options.only);
     const auto sets =
-        options.flags.empty() ? std::vector<runtime::FlagSet>() : runtime::parse_flag_sets(options.flags);
+        options.flags ? runtime::parse_flag_sets(*options.flags) : std::vector<runtime::FlagSet>();
     if (!sets.empty() && options.real != "float")
         throw InputError("--flags --real double: fast math is promised and measured in float");
     const bool table = !is_standard_output(options.json);

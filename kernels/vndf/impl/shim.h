@@ -7,16 +7,18 @@
 #include "../config.h"
 
 // Fast math around these headers, not in them: sums whose order is their accuracy, and comparisons that find infinities, are
-// meant literally. VNDF_IMPL_PRECISE, how much can be switched off: 2 everything; 1 reassociation, by which clang for GPUs and
-// SPIR-V keeps quick division; 0 nothing. Tests set it lower.
+// meant literally. VNDF_IMPL_PRECISE, how much can be switched off: 2 everything; 1 reassociation, which is all that clang
+// takes on GPUs and for SPIR-V, and which leaves quick division; 0 nothing. Tests set it lower.
 #ifdef VNDF_IMPL_PRECISE
 #elif defined(__NVCC__) || defined(__CUDACC_RTC__)
 #define VNDF_IMPL_PRECISE 0
 #elif defined(__clang__) && __clang_major__ >= 14
-#if defined(__CUDA__) || defined(__HIP__) || !(defined(__x86_64__) || (defined(__aarch64__) && __clang_major__ >= 19))
+#if defined(__CUDA__) || defined(__HIP__)
 #define VNDF_IMPL_PRECISE 1
-#else
+#elif defined(__x86_64__) || (defined(__aarch64__) && __clang_major__ >= 19)
 #define VNDF_IMPL_PRECISE 2
+#else
+#define VNDF_IMPL_PRECISE 1
 #endif
 #elif defined(__GNUC__) && !defined(__clang__) && VNDF_ALLOW_FAST_MATH
 #define VNDF_IMPL_PRECISE 2
@@ -29,13 +31,13 @@
 #define VNDF_IMPL_NOT_LITERALLY _Pragma("float_control(pop)")
 #elif VNDF_IMPL_PRECISE == 2
 // These functions are then inlined into each other, but into no other.
-#define VNDF_IMPL_LITERALLY            \
+#define VNDF_IMPL_LITERALLY              \
     _Pragma("GCC push_options") _Pragma( \
         "GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\", \"fp-contract=off\")")
 #define VNDF_IMPL_NOT_LITERALLY _Pragma("GCC pop_options")
-#elif VNDF_IMPL_PRECISE == 1
-#define VNDF_IMPL_LITERALLY _Pragma("float_control(push)") _Pragma("clang fp reassociate(off) contract(off)")
-#define VNDF_IMPL_NOT_LITERALLY _Pragma("float_control(pop)")
+#elif VNDF_IMPL_PRECISE == 1 && (defined(__FAST_RELAXED_MATH__) || defined(__FAST_MATH__))
+#define VNDF_IMPL_LITERALLY _Pragma("clang fp reassociate(off)")
+#define VNDF_IMPL_NOT_LITERALLY _Pragma("clang fp reassociate(on)")
 #else
 #define VNDF_IMPL_LITERALLY
 #define VNDF_IMPL_NOT_LITERALLY
@@ -150,7 +152,9 @@ _Static_assert(sizeof(1.0) == sizeof(double), "clvndf: -fsingle-precision-consta
 // Structs of reals are other types for another VNDF_REAL: one program may hold both.
 #ifdef __cplusplus
 #define VNDF_BEGIN VNDF_IMPL_LITERALLY inline namespace VNDF_CAT(vndf_, VNDF_REAL) {
-#define VNDF_END } VNDF_IMPL_NOT_LITERALLY
+#define VNDF_END \
+    }            \
+    VNDF_IMPL_NOT_LITERALLY
 #else
 #define VNDF_BEGIN VNDF_IMPL_LITERALLY
 #define VNDF_END VNDF_IMPL_NOT_LITERALLY
