@@ -46,13 +46,16 @@ policies() { measured "$1" "$clvndf" policies $quick --quiet --flags "$1"; }
 policies renderers || status=1
 policies pairs || status=1
 
-# Told of reassociation alone, as clang for GPUs is, these and no others lose the promise, each by its values alone.
+# Told of reassociation alone, as clang for GPUs is, these and no others lose the promise, by their largest errors: where a
+# last digit of a quotient decides over more (config.h).
 measured "cycles, reassociation alone switched off" \
     "$clvndf" policies $quick --quiet --flags "cycles -DVNDF_IMPL_PRECISE=1"
 broken=$(sed -n 's/^\([a-z0-9_]*\) .* BREAKS  *\(.*\)/\1 \2/p' "$work/table")
-exempt="vndf_beckmann_sample_wm_heitz_deon2014_with_pdf value
-vndf_beckmann_slope_cdf_inverse value"
-[ "$broken" = "$exempt" ] || { echo "not what is documented:" && echo "$broken" && status=1; }
+exempt="vndf_beckmann_sample_wm_heitz_deon2014 direction
+vndf_beckmann_sample_wm_heitz_deon2014_with_pdf value, direction
+vndf_beckmann_slope_cdf_inverse value
+vndf_ggx_invert_wi_conic2026 value"
+[ -n "$quick" ] || [ "$broken" = "$exempt" ] || { echo "not what is documented:" && echo "$broken" && status=1; }
 
 # Where nothing is switched off the check fails.
 measured "cycles, nothing switched off" "$clvndf" policies $quick --quiet --flags "cycles -DVNDF_IMPL_PRECISE=0" \

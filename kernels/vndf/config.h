@@ -38,8 +38,9 @@
 // within 8 * 2^-24, directions within 1e-5 of those of strict (99.9 %; 1e-4 at most) and densities and terms within 1e-4; and
 // everywhere results are finite where those of strict are. It is tested for clang on CPUs (14 or later; so for PoCL) and g++.
 // clang for GPUs and SPIR-V can be told of reassociation alone, under -cl-fast-relaxed-math and -ffast-math, and keeps quick
-// division, with which all that holds but for a few values of vndf_beckmann_slope_cdf_inverse and of the density of
-// vndf_beckmann_sample_wm_heitz_deon2014_with_pdf, which are within 1e-2. Of other compilers nothing is known: `clvndf policies
+// division: there the largest errors of vndf_beckmann_sample_wm_heitz_deon2014 (1.1e-3, density 0.03),
+// vndf_beckmann_slope_cdf_inverse and vndf_ggx_invert_wi_conic2026 (0.01) are more, since a last digit of a quotient may decide
+// over the branch or be what is left of a difference; all else holds. Of other compilers nothing is known: `clvndf policies
 // --flags` measures.
 #ifndef VNDF_CONFIG_H
 #define VNDF_CONFIG_H
