@@ -28,7 +28,7 @@ FORMS["copy"] = """
         return VNDF_MAKE3(wo.x + alpha.x, wo.y + alpha.y, wo.z + (u.x + u.y));
     }
     VNDF_ENTRY_POINT(vndf_batch_copy_40B, copy, WO_ALPHA_U, WM)"""
-# Division and square root correctly rounded or not. All fast math for the listings alone: it breaks the other forms.
+# Division and square root correctly rounded or not. All fast math for the listings alone, which have nothing to lose.
 DIVISIONS = {"ieee": ["-cl-fp32-correctly-rounded-divide-sqrt"], "fast": [], "fast-math": ["-cl-fast-relaxed-math"]}
 CUDA_DIVISIONS = {  # as nvcc has them by default, with --prec-div=false --prec-sqrt=false, and with --use_fast_math
     "ieee": ["-mllvm", "-nvptx-prec-divf32=2"],

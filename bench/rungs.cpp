@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "runtime/flag_sets.h"
+
 namespace vndf::bench {
 namespace {
 
@@ -38,20 +40,6 @@ std::vector<Mode> all_modes(const Function& function) {
     if (is_plain_sampler(function) && function.domain == Domain::sphere && has_wo)
         modes.push_back(Mode::cached_front);
     return modes;
-}
-
-// The build options of renderers, as they are.
-struct FlagSet {
-    std::string name, flags;
-};
-const std::vector<FlagSet>& flag_sets() {
-    static const std::vector<FlagSet> sets = {
-        {"luxcore", "-cl-fast-relaxed-math -cl-mad-enable"},  // and Baikal
-        {"fluctus", "-cl-denorms-are-zero -cl-fast-relaxed-math"},
-        {"cycles", "-cl-fast-relaxed-math"},
-        {"hydracore",
-         "-cl-mad-enable -cl-no-signed-zeros -cl-single-precision-constant -cl-denorms-are-zero"}};
-    return sets;
 }
 
 // What the isotropic sampler competes with: a basis about n, the cap in it and back; ours and the listing. Azimuths are those
@@ -174,7 +162,7 @@ std::vector<Rung> rungs(const Function& function, const runtime::Device& device)
     add_basis(function, all);
     add_layouts(function, all);
     if (is_plain_sampler(function))
-        for (const FlagSet& set : flag_sets())
+        for (const runtime::FlagSet& set : runtime::distinct(runtime::renderer_flags()))
             all.push_back(
                 {.name = set.name, .modes = {Mode::cached}, .callee = function.name, .flags = set.flags});
     all.push_back({.name = "cpp", .modes = memory_and_one_lobe, .callee = function.name, .on_device = false});

@@ -6,6 +6,7 @@
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "conformance/runs/fast_math.h"
 #include "conformance/runs/policies.h"
 #include "cli/streams.h"
 
@@ -14,11 +15,16 @@ namespace {
 
 struct Policies {
     std::string device, real = "float", only, json;
+    std::optional<std::string> flags;
     bool quick = false;
 };
 
 void run_policies(const Policies& options, Common& common) {
     const auto selected = selected_by(options.only);
+    const auto sets =
+        options.flags ? runtime::parse_flag_sets(*options.flags) : std::vector<runtime::FlagSet>();
+    if (!sets.empty() && options.real != "float")
+        throw InputError("--flags --real double: fast math is promised and measured in float");
     const bool table = !is_standard_output(options.json);
     if (table) require_output();
     std::optional<OutputFile> json;
@@ -32,12 +38,16 @@ void run_policies(const Policies& options, Common& common) {
     check.seed = common.seed;
     check.quick = options.quick;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
-    const auto report = conformance::measure_policies(device, target.real(), selected, check);
-    progress.clear();
-
-    if (json) json->write(conformance::format_json(report)), json->commit();
-    if (table) put(conformance::format_table(report));
-    common.exit_status = report.passed() ? 0 : 1;
+    const auto show = [&](const auto& report) {
+        progress.clear();
+        if (json) json->write(conformance::format_json(report)), json->commit();
+        if (table) put(conformance::format_table(report));
+        common.exit_status = report.passed() ? 0 : 1;
+    };
+    if (sets.empty())
+        show(conformance::measure_policies(device, target.real(), selected, check));
+    else
+        show(conformance::measure_fast_math(device, sets, selected, check));
 }
 
 }  // namespace
@@ -53,6 +63,11 @@ void add_policies(CLI::App& app, Common& common) {
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
     add_only(*command, options->only);
+    command->add_option(
+        "--flags", options->flags,
+        "the promise of fast math instead, in these builds: renderers' names (luxcore, baikal, fluctus,\n"
+        "cycles, hydracore), OpenCL's flags, several with spaces between them, further sets after\n"
+        "commas; renderers: all of these; pairs: each flag and each two. Exit status 1 if one breaks it");
     command->add_flag("--quick", options->quick, "fewer points");
     command->add_option("--json", options->json, "write the figures as JSON (- for standard output)");
     command->callback(

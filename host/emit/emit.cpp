@@ -128,7 +128,10 @@ std::string prologue(const Options& options, bool copies_bits) {
     switch (options.language) {
         case Language::opencl:
         case Language::string:
-            out += "#pragma OPENCL FP_CONTRACT OFF\n";
+            // Fast math stays outside, as in vndf/impl/shim.h.
+            out +=
+                "#ifdef __x86_64__\n#pragma float_control(precise, on, push)\n#endif\n"
+                "#pragma OPENCL FP_CONTRACT OFF\n";
             if (options.real == runtime::Real::f64)
                 out +=
                     "#if defined(__OPENCL_C_VERSION__) && __OPENCL_C_VERSION__ < 120\n"
@@ -148,6 +151,11 @@ std::string prologue(const Options& options, bool copies_bits) {
             return out + function("static inline");
     }
     return out;
+}
+
+std::string epilogue(const Options& options) {
+    const bool opencl = options.language == Language::opencl || options.language == Language::string;
+    return opencl ? "#ifdef __x86_64__\n#pragma float_control(pop)\n#endif\n#endif\n" : "#endif\n";
 }
 
 // As string literals of C and C++; beyond what compilers take of one (MSVC: 65535 characters) as an array of lines.
@@ -242,7 +250,8 @@ std::string emit(const Options& options) {
     }
     if (options.selftest) body += selftest(options) + '\n';
     const bool copies_bits = body.find("memcpy(") != body.npos;
-    std::string text = introduction(options) + prologue(options, copies_bits) + '\n' + body + "#endif\n";
+    std::string text =
+        introduction(options) + prologue(options, copies_bits) + '\n' + body + epilogue(options);
     if (options.language == Language::string) text = as_string(text, options);
     return renamed(text, options.prefix);
 }

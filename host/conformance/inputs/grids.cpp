@@ -361,4 +361,24 @@ std::vector<Point> random_points(const Function& function, std::size_t count, st
     return points;
 }
 
+std::vector<Point> renderer_points(const Function& function, std::size_t count, std::uint64_t seed) {
+    Random random(seed);
+    const bool world = uses(function, {"n_x"});
+    std::vector<Point> points;
+    points.reserve(count);
+    while (points.size() < count) {
+        const double height = random.chance(0.3) ? random.log_uniform(1e-2, 1) : random.uniform(1e-2, 1);
+        const double side = random.chance(0.3) && function.domain == Domain::sphere ? -1 : 1;
+        const Direction wo = direction(side * height, random.uniform(-pi, pi));
+        const double alpha = random.log_uniform(1e-3, 10);
+        const double other = world || random.chance(0.4) ? alpha : random.log_uniform(1e-3, 10);
+        const Direction n = world ? direction(random.cosine(), random.uniform(-pi, pi)) : Direction{0, 0, 1};
+        const Stretched normal = random.normal();
+        const std::array<double, 2> u{random.u(), random.u()};
+        points.push_back(make_point(wo, {alpha, other}, normal, n, u, random.eta()));
+    }
+    refract_some(function, points);
+    return points;
+}
+
 }  // namespace vndf::conformance

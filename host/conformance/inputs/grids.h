@@ -23,4 +23,8 @@ std::vector<Point> guard_points(const Function& function);
 // `count` random points: log-uniform alpha and grazing angles, uniform and tail values of u.
 std::vector<Point> random_points(const Function& function, std::size_t count, std::uint64_t seed);
 
+// Random points as renderers have them, the domain of the promise of fast math: alpha in [1e-3, 10], |wo.z| >= 1e-2 (wo.z >
+// 0 for a sampler of domain upper), u with its tails.
+std::vector<Point> renderer_points(const Function& function, std::size_t count, std::uint64_t seed);
+
 }  // namespace vndf::conformance

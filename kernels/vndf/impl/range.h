@@ -26,7 +26,13 @@ VNDF_FN VNDF_REAL vndf_impl_u(VNDF_REAL u) {
 // What arguments beyond the domain leave of a positive number and of a share: infinity and NaN count as the largest number
 // and as 1. In the domain nothing is left for them to do.
 VNDF_FN VNDF_REAL vndf_impl_finite(VNDF_REAL x) {
+#if VNDF_IMPL_PRECISE < 2 && defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+    // By the bits: who is told that there are no infinities may take a comparison with them for true.
+    VNDF_INT size = VNDF_AS_INT(VNDF_REAL_MAX) | ((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS);
+    return (VNDF_AS_INT(x) & size) <= VNDF_AS_INT(VNDF_REAL_MAX) ? x : VNDF_REAL_MAX;
+#else
     return x < VNDF_REAL_MAX ? x : VNDF_REAL_MAX;
+#endif
 }
 VNDF_FN VNDF_REAL vndf_impl_share(VNDF_REAL x) {
     return x < VNDF_R(1.0) ? x : VNDF_R(1.0);

@@ -6,6 +6,43 @@
 
 #include "../config.h"
 
+// Fast math around these headers, not in them: sums whose order is their accuracy, and comparisons that find infinities, are
+// meant literally. VNDF_IMPL_PRECISE, how much can be switched off: 2 everything; 1 reassociation, which is all that clang
+// takes on GPUs and for SPIR-V, and which leaves quick division; 0 nothing. Tests set it lower.
+#ifdef VNDF_IMPL_PRECISE
+#elif defined(__NVCC__) || defined(__CUDACC_RTC__)
+#define VNDF_IMPL_PRECISE 0
+#elif defined(__clang__) && __clang_major__ >= 14
+#if defined(__CUDA__) || defined(__HIP__)
+#define VNDF_IMPL_PRECISE 1
+#elif defined(__x86_64__) || (defined(__aarch64__) && __clang_major__ >= 19)
+#define VNDF_IMPL_PRECISE 2
+#else
+#define VNDF_IMPL_PRECISE 1
+#endif
+#elif defined(__GNUC__) && !defined(__clang__) && VNDF_ALLOW_FAST_MATH
+#define VNDF_IMPL_PRECISE 2
+#else
+#define VNDF_IMPL_PRECISE 0
+#endif
+#if VNDF_IMPL_PRECISE == 2 && defined(__clang__)
+#define VNDF_IMPL_LITERALLY \
+    _Pragma("float_control(push)") _Pragma("float_control(precise, on)") _Pragma("clang fp contract(off)")
+#define VNDF_IMPL_NOT_LITERALLY _Pragma("float_control(pop)")
+#elif VNDF_IMPL_PRECISE == 2
+// These functions are then inlined into each other, but into no other.
+#define VNDF_IMPL_LITERALLY              \
+    _Pragma("GCC push_options") _Pragma( \
+        "GCC optimize(\"no-unsafe-math-optimizations\", \"no-finite-math-only\", \"fp-contract=off\")")
+#define VNDF_IMPL_NOT_LITERALLY _Pragma("GCC pop_options")
+#elif VNDF_IMPL_PRECISE == 1 && (defined(__FAST_RELAXED_MATH__) || defined(__FAST_MATH__))
+#define VNDF_IMPL_LITERALLY _Pragma("clang fp reassociate(off)")
+#define VNDF_IMPL_NOT_LITERALLY _Pragma("clang fp reassociate(on)")
+#else
+#define VNDF_IMPL_LITERALLY
+#define VNDF_IMPL_NOT_LITERALLY
+#endif
+
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__) || defined(__OPENCL_VERSION__)
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -18,8 +55,8 @@
 #ifndef VNDF_FN
 #define VNDF_FN static inline __attribute__((always_inline, __unused__))
 #endif
-#define VNDF_BEGIN
-#define VNDF_END
+#define VNDF_BEGIN VNDF_IMPL_LITERALLY
+#define VNDF_END VNDF_IMPL_NOT_LITERALLY
 
 #define VNDF_REAL2 VNDF_CAT(VNDF_REAL, 2)
 #define VNDF_REAL3 VNDF_CAT(VNDF_REAL, 3)
@@ -114,11 +151,13 @@ _Static_assert(sizeof(1.0) == sizeof(double), "clvndf: -fsingle-precision-consta
 
 // Structs of reals are other types for another VNDF_REAL: one program may hold both.
 #ifdef __cplusplus
-#define VNDF_BEGIN inline namespace VNDF_CAT(vndf_, VNDF_REAL) {
-#define VNDF_END }
+#define VNDF_BEGIN VNDF_IMPL_LITERALLY inline namespace VNDF_CAT(vndf_, VNDF_REAL) {
+#define VNDF_END \
+    }            \
+    VNDF_IMPL_NOT_LITERALLY
 #else
-#define VNDF_BEGIN
-#define VNDF_END
+#define VNDF_BEGIN VNDF_IMPL_LITERALLY
+#define VNDF_END VNDF_IMPL_NOT_LITERALLY
 #endif
 
 #ifndef VNDF_VECTOR_TYPES
@@ -204,8 +243,18 @@ typedef struct vndf_double4 {
 #define VNDF_INT int
 #endif
 #define VNDF_FAST(name) VNDF_STD(name)
-#define VNDF_FMA(a, b, c) VNDF_STD(fma)(a, b, c)
-#define VNDF_SQRT(x) VNDF_STD(sqrt)(x)
+#if VNDF_IMPL_PRECISE == 2 && defined(__clang__) && VNDF_ALLOW_FAST_MATH
+// clang++ 14 takes library functions literally in operands of a conversion alone; the two of this one cancel.
+#if VNDF_DOUBLE
+#define VNDF_IMPL_EXACTLY(x) ((double)(long double)(x))
+#else
+#define VNDF_IMPL_EXACTLY(x) ((float)(double)(x))
+#endif
+#else
+#define VNDF_IMPL_EXACTLY(x) x
+#endif
+#define VNDF_FMA(a, b, c) VNDF_IMPL_EXACTLY(VNDF_STD(fma)(a, b, c))
+#define VNDF_SQRT(x) VNDF_IMPL_EXACTLY(VNDF_STD(sqrt)(x))
 #define VNDF_SIN_2PI(x) VNDF_STD(sin)(VNDF_R(2.0) * VNDF_PI * (x))
 
 VNDF_BEGIN
