@@ -21,7 +21,7 @@ VNDF_BEGIN
 // theta of a v by its parts times 2^27: squares keep full precision down to v.x = 1e-27, and the largest, (2^27 1e6)^2, is far
 // from overflow.
 struct vndf_impl_axis {
-    VNDF_REAL t;  // r 2^27
+    VNDF_REAL t, l2;  // r 2^27, (l 2^27)^2
     // (x, y) / height = tan(theta / 2), (x, y) = weight (v.x, v.y) 2^27, and 2 z / height = 1 - tan^2(theta / 2). Above the
     // surface height is r + z; below it l^2, and the weight r - z, both over about l.
     VNDF_REAL height, weight, z;
@@ -29,9 +29,10 @@ struct vndf_impl_axis {
 };
 
 // What stands for l = 0: nothing beside r + z above the surface, but not so little that its square is subnormal; and not lost
-// below it, where scale is large: 2^-30, 2^-60.
+// below it, where scale is large: 2^-30 (double: 2^-100), 2^-60.
 VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
-    return z >= VNDF_R(0.0) ? VNDF_R(9.31322574615478516e-10) : VNDF_R(8.67361737988403547e-19);
+    VNDF_REAL above = VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10);
+    return z >= VNDF_R(0.0) ? above : VNDF_R(8.67361737988403547e-19);
 }
 
 // A power of two near 1 / l, for l2 = l^2.
@@ -45,6 +46,7 @@ VNDF_FN VNDF_REAL vndf_impl_rcp_root_scale(VNDF_REAL l2) {
 VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
     struct vndf_impl_axis v;
     VNDF_REAL size = vndf_impl_abs(z);
+    v.l2 = l2;
     v.t = VNDF_SQRT(VNDF_FMA(z, z, l2));
     VNDF_REAL sum = v.t + size;
     VNDF_REAL scale = vndf_impl_rcp_root_scale(l2), weight = sum * scale, height = l2 * scale;
