@@ -58,7 +58,7 @@ std::map<std::string, Remarks> parse(const std::string& text) {
 // A mistake that keeps the cap from being vectorised: a builtin that PoCL calls once for each work-item.
 const std::string mutant_function = "vndf_ggx_sample_wm_dupuy2023";
 const runtime::Substitution scalar_call{"kernels/vndf/impl/lobe.h", "radius * vndf_impl_circle_cos(u1)",
-                                        "radius * cospi(2 * u1)", 1};
+                                        "radius * pow(u1, radius)", 1};
 
 // What a process compiles that is started to print remarks, by its environment: the program at CLVNDF_REMARKS_ROOT, in
 // CLVNDF_REMARKS_REAL, with CLVNDF_REMARKS_MUTANT 1 of the mistake alone the functions of the cap.

@@ -15,9 +15,8 @@
      {"pointwise", "integral"}},
     {"height-correlated shadowing taken for separable",
      "ggx.h",
-     "return lobe.axis.t * wi.z + vndf_impl_ggx_stretched(lobe, wi) * lobe.wo_z;",
-     "return VNDF_R(0.5) * lobe.axis.height * (wi.z + vndf_impl_ggx_stretched(lobe, wi) / "
-     "VNDF_R(134217728.0));",
+     "return lobe.axis.t * wi.z + VNDF_FMA(t_i, lobe.wo_z, VNDF_R(0.0));",
+     "return VNDF_R(0.5) * lobe.axis.height * (wi.z + t_i / VNDF_R(134217728.0));",
      "vndf_ggx_g2",
      {"pointwise, maximum"}},
     {"alpha squared in the density alone",
