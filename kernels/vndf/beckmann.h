@@ -71,7 +71,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_sigma_lobe(struct vndf_beckmann_lobe lobe) {
 
 VNDF_FN VNDF_REAL vndf_impl_beckmann_g1(struct vndf_beckmann_lobe lobe) {
     int above = lobe.wo_z > VNDF_R(0.0);
-    VNDF_REAL sigma = above ? vndf_impl_beckmann_front_sigma(lobe) : VNDF_R(1.0);
+    VNDF_REAL sigma = vndf_impl_finite(above ? vndf_impl_beckmann_front_sigma(lobe) : VNDF_R(1.0)) +
+                      vndf_impl_zero(lobe.wo_x, lobe.wo_y, lobe.wo_z);
     return above ? vndf_impl_min(lobe.wo_z / sigma, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 

@@ -23,7 +23,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
                                                               VNDF_REAL u1, VNDF_REAL u2) {
     struct vndf_impl_folded_slope fold;
     VNDF_REAL a = vndf_impl_max(i.a, VNDF_IMPL_ROOT_LEAST);
-    VNDF_REAL beyond = vndf_impl_scaled_erfc_of(i.a).erfcx * i.gaussian;  // erfc(a)
+    VNDF_REAL beyond = i.erfcx * i.gaussian;  // erfc(a)
     VNDF_REAL edge = VNDF_R(0.5) * VNDF_1_SQRT_PI * i.gaussian, plateau = VNDF_R(0.5) * a * beyond;
     VNDF_REAL mass = u1 * i.area, mass_above = (VNDF_R(1.0) - u1) * i.area;
     // mass - edge; the area is edge + a - plateau, which above u1 = 1/2 keeps the digits of 1 - u1.
@@ -75,6 +75,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_heitz_deon2014(struct vndf_be
     i.steep = front ? i.steep : VNDF_R(0.0);
     i.a = front ? i.a : VNDF_R(0.0);
     i.gaussian = front ? i.gaussian : VNDF_R(1.0);
+    i.erfcx = front ? i.erfcx : VNDF_R(1.0);
     i.area = front ? i.area : VNDF_R(0.5) * VNDF_1_SQRT_PI;
     lobe.slopes = i;
     struct vndf_impl_folded_slope r = vndf_impl_beckmann_fold(i, vndf_impl_u(u.x), vndf_impl_u(u.y));

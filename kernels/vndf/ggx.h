@@ -118,9 +118,11 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_stretched(struct vndf_ggx_lobe lobe, VNDF_REAL3 
     return VNDF_SQRT(VNDF_FMA(kz, kz, VNDF_FMA(kx, kx, ky * ky)));
 }
 
-// t_o i + t_i o times 2^27, with the same bits for wo and wi exchanged.
+// t_o i + t_i o times 2^27, with the same bits for wo and wi exchanged: a sum of two products, of which the second is written
+// as a fma, so that LLVM's SLP pass does not pack them.
 VNDF_FN VNDF_REAL vndf_impl_ggx_both(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
-    return lobe.axis.t * wi.z + vndf_impl_ggx_stretched(lobe, wi) * lobe.wo_z;
+    VNDF_REAL t_i = vndf_impl_ggx_stretched(lobe, wi);
+    return lobe.axis.t * wi.z + VNDF_FMA(t_i, lobe.wo_z, VNDF_R(0.0));
 }
 
 VNDF_FN VNDF_REAL vndf_impl_ggx_g2(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
@@ -252,20 +254,26 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_half_ndf(struct vndf_ggx_lobe lobe, VNDF_REAL3 w
     return above ? VNDF_1_PI * s * (a * s) : VNDF_R(0.0);
 }
 
-// d / (2 n), n = height / (2^27 weight) twice the projected area of a direction; 0 where nothing is visible.
-VNDF_FN VNDF_REAL vndf_impl_ggx_axis_pdf(struct vndf_impl_axis axis, VNDF_REAL d) {
-    VNDF_REAL share = vndf_impl_bounded_product(d, VNDF_R(67108864.0) * axis.weight);
-    VNDF_REAL pdf = vndf_impl_bounded_quotient(share, axis.height);
-    return d > VNDF_R(0.0) && axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+// d / (2 n) for a direction of the length t, the height z and the squared tangential part l2 after the stretch, all times a
+// power of 2^27; n is twice the projected area, t + z or l^2 / (t + |z|). 0 where nothing is visible.
+VNDF_FN VNDF_REAL vndf_impl_ggx_area_pdf(VNDF_REAL t, VNDF_REAL z, VNDF_REAL l2, VNDF_REAL d) {
+    VNDF_REAL sum = t + vndf_impl_abs(z), share = VNDF_R(67108864.0) * d;
+    int front = z >= VNDF_R(0.0);
+    VNDF_REAL area = front ? sum : l2;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(front ? share : share * sum, area);
+    return vndf_impl_min(d, area) > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_ggx_lobe_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL d) {
+    return vndf_impl_ggx_area_pdf(lobe.axis.t, lobe.wo_z * VNDF_R(134217728.0), lobe.axis.l2, d);
 }
 
 VNDF_FN VNDF_REAL2 vndf_impl_ggx_pdf_wi_both(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
-    VNDF_REAL d = vndf_impl_ggx_half_ndf(lobe, wi), pdf = vndf_impl_ggx_axis_pdf(lobe.axis, d);
+    VNDF_REAL d = vndf_impl_ggx_half_ndf(lobe, wi), pdf = vndf_impl_ggx_lobe_pdf(lobe, d);
     VNDF_REAL kx = lobe.alpha_x * wi.x * VNDF_R(134217728.0), ky = lobe.alpha_y * wi.y * VNDF_R(134217728.0);
     // Made dependent on wo's density, which is never negative, so that LLVM's SLP pass does not pack the two.
     VNDF_REAL kz = wi.z * (pdf >= VNDF_R(0.0) ? VNDF_R(134217728.0) : VNDF_R(1.0));
-    struct vndf_impl_axis axis = vndf_impl_axis_of(VNDF_FMA(kx, kx, ky * ky), kz);
-    return VNDF_MAKE2(pdf, vndf_impl_ggx_axis_pdf(axis, d));
+    VNDF_REAL l2 = VNDF_FMA(kx, kx, ky * ky);
+    return VNDF_MAKE2(pdf, vndf_impl_ggx_area_pdf(VNDF_SQRT(VNDF_FMA(kz, kz, l2)), kz, l2, d));
 }
 
 // The densities of a reflection both ways, as bidirectional methods need them: that of wi seen from wo, and that of wo
@@ -292,7 +300,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_ggx_eval_pdf(struct vndf_ggx_lobe lobe, VNDF_REAL3 
     VNDF_REAL value = vndf_impl_bounded_quotient(VNDF_R(67108864.0) * d, above ? both : VNDF_R(1.0));
     value = above ? vndf_impl_finite(value) : VNDF_R(0.0);
     // Made dependent on the value, which is never negative, so that LLVM's SLP pass does not pack the two.
-    return VNDF_MAKE2(value, vndf_impl_ggx_axis_pdf(lobe.axis, value >= VNDF_R(0.0) ? d : VNDF_R(0.0)));
+    return VNDF_MAKE2(value, vndf_impl_ggx_lobe_pdf(lobe, value >= VNDF_R(0.0) ? d : VNDF_R(0.0)));
 }
 
 // A reflection's value and density from common terms.

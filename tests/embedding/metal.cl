@@ -11,9 +11,9 @@ kernel void sample_metal(global const float* wo, global const float* u, float2 r
     const float2 alpha = (float2)(roughness.x, one * roughness.y);
     const float3 o = (float3)(wo[3 * i], one * wo[3 * i + 1], wo[3 * i + 2]);
     const struct vndf_ggx_lobe lobe = vndf_ggx_lobe_of(o, alpha);
-    const float3 m = vndf_ggx_sample_wm_dupuy2023_lobe(lobe, (float2)(u[2 * i], one * u[2 * i + 1]));
-    const float3 r = vndf_reflect(o, m);
+    const float4 m = vndf_ggx_sample_wm_dupuy2023_lobe_with_pdf(lobe, (float2)(u[2 * i], one * u[2 * i + 1]));
+    const float3 r = vndf_reflect(o, m.xyz);
     wi[3 * i] = r.x, wi[3 * i + 1] = one * r.y, wi[3 * i + 2] = r.z;
-    weight[i] = r.z > 0.0f ? vndf_ggx_weight_lobe(lobe, r) : 0.0f;
-    pdf[i] = vndf_ggx_pdf_wi_lobe(lobe, r);
+    weight[i] = vndf_ggx_weight_lobe(lobe, r);  // 0 below the horizon
+    pdf[i] = m.w * vndf_jacobian_reflect(o, m.xyz);
 }

@@ -92,12 +92,12 @@ TEST_CASE("the OpenCL example builds from named headers and gives the bits of th
     std::size_t different = 0, reflected = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const vndf_float3 o = {wo[3 * i], wo[3 * i + 1], wo[3 * i + 2]};
-        const vndf_float3 m = vndf_ggx_sample_wm_dupuy2023(o, alpha, {u[2 * i], u[2 * i + 1]});
-        const vndf_float3 r = vndf_reflect(o, m);
-        const float w = r.z > 0 ? vndf_ggx_weight(o, r, alpha) : 0;
+        const vndf_float4 sample = vndf_ggx_sample_wm_dupuy2023_with_pdf(o, alpha, {u[2 * i], u[2 * i + 1]});
+        const vndf_float3 m = {sample.x, sample.y, sample.z}, r = vndf_reflect(o, m);
         const bool same = same_bits(wi[3 * i], r.x) && same_bits(wi[3 * i + 1], r.y) &&
-                          same_bits(wi[3 * i + 2], r.z) && same_bits(weight[i], w) &&
-                          same_bits(pdf[i], vndf_ggx_pdf_wi(o, r, alpha));
+                          same_bits(wi[3 * i + 2], r.z) &&
+                          same_bits(weight[i], vndf_ggx_weight(o, r, alpha)) &&
+                          same_bits(pdf[i], sample.w * vndf_jacobian_reflect(o, m));
         different += !same;
         reflected += r.z > 0;
     }

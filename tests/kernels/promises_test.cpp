@@ -33,6 +33,12 @@ std::vector<std::vector<double>> evaluate_on_host(Real real, const std::string& 
     return evaluate(host, *find_function(name), table);
 }
 
+// wo and wi, the first two arguments, in each other's place.
+Table exchanged(Table rows) {
+    for (int k = 0; k < 3; ++k) std::swap(rows.columns[k], rows.columns[k + 3]);
+    return rows;
+}
+
 class Random {
   public:
     double uniform(double low, double high) {
@@ -128,8 +134,9 @@ TEST_CASE("NaN in a direction is not hidden by a term") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const Real real : reals)
         for (const char* name :
-             {"vndf_ggx_sigma", "vndf_ggx_g1", "vndf_ggx_sigma_visible", "vndf_ggx_reflection_probability",
-              "vndf_beckmann_sigma", "vndf_beckmann_g1"}) {
+             {"vndf_ggx_sigma", "vndf_ggx_sigma_lobe", "vndf_ggx_g1", "vndf_ggx_g1_lobe",
+              "vndf_ggx_sigma_visible", "vndf_ggx_reflection_probability", "vndf_beckmann_sigma",
+              "vndf_beckmann_sigma_lobe", "vndf_beckmann_g1", "vndf_beckmann_g1_lobe"}) {
             INFO(name);
             Table table = empty_table(name);
             add_row(table, {nan, 0, 0.8, 0.5, 0.5}), add_row(table, {0, nan, 0.8, 0.5, 0.5});
@@ -141,13 +148,11 @@ TEST_CASE("NaN in a direction is not hidden by a term") {
 TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
     for (const Real real : reals)
         for (const char* name :
-             {"vndf_ggx_g2", "vndf_ggx_g2_separable", "vndf_beckmann_g2", "vndf_beckmann_g2_separable"}) {
-            const Function& g2 = *find_function(name);
-            const Table rows = digest_inputs(g2, std::size_t{1} << 14, real);
-            Table exchanged = rows;
-            for (int k = 0; k < 3; ++k) std::swap(exchanged.columns[k], exchanged.columns[k + 3]);
+             {"vndf_ggx_g2", "vndf_ggx_g2_lobe", "vndf_ggx_g2_separable", "vndf_beckmann_g2",
+              "vndf_beckmann_g2_lobe", "vndf_beckmann_g2_separable"}) {
+            const Table rows = digest_inputs(*find_function(name), std::size_t{1} << 14, real);
             const auto one = evaluate_on_host(real, name, rows),
-                       other = evaluate_on_host(real, name, exchanged);
+                       other = evaluate_on_host(real, name, exchanged(rows));
             std::size_t different = 0, positive = 0;
             for (std::size_t i = 0; i < rows.rows(); ++i) {
                 different += one[0][i] != other[0][i];
@@ -174,4 +179,66 @@ TEST_CASE("an alpha beyond its range counts as the end of the range") {
                           evaluate_on_host(real, function.name, at_end));
                 }
             }
+}
+
+TEST_CASE("a GGX reflection has the same value, and its densities change places, with wo and wi exchanged") {
+    for (const Real real : reals)
+        for (const char* name : {"vndf_ggx_eval_pdf", "vndf_ggx_eval_pdf_lobe", "vndf_ggx_pdf_wi_both",
+                                 "vndf_ggx_pdf_wi_both_lobe"}) {
+            const Function& pair = *find_function(name);
+            const Table rows = digest_inputs(pair, std::size_t{1} << 14, real);
+            const auto one = evaluate_on_host(real, name, rows),
+                       other = evaluate_on_host(real, name, exchanged(rows));
+            const bool both = pair.result == "PDF_BOTH";
+            std::size_t different = 0, positive = 0;
+            for (std::size_t i = 0; i < rows.rows(); ++i) {
+                different += one[0][i] != other[both ? 1 : 0][i];
+                positive += one[0][i] > 0;
+            }
+            INFO(name);
+            CHECK(different == 0);
+            CHECK(positive > rows.rows() / 4);
+        }
+}
+
+TEST_CASE("the value of a reflection times its cosine is its weight times its density") {
+    for (const Real real : reals)
+        for (const std::string ndf : {"ggx", "beckmann"}) {
+            const Function& pair = *find_function("vndf_" + ndf + "_eval_pdf");
+            const Function& weight = *find_function("vndf_" + ndf + "_weight");
+            const Table rows = digest_inputs(pair, std::size_t{1} << 14, real);
+            const auto evaluated = evaluate_on_host(real, pair.name, rows);
+            const auto weights = evaluate_on_host(real, weight.name, rows)[0];
+            const auto& cosines = rows.columns[5];
+            // The errors of D are those of both numbers; that of the weight comes on top.
+            const double allowed = (bounds_of(pair, real).error + bounds_of(weight, real).error) * epsilon(real);
+            std::size_t compared = 0, off = 0;
+            for (std::size_t i = 0; i < rows.rows(); ++i) {
+                const double value = evaluated[0][i], pdf = evaluated[1][i];
+                // Where neither has left the range of numbers.
+                if (!(std::min(value, pdf) > 1e-30 && std::max(value, pdf) < 1e30)) continue;
+                off += !(std::abs(value * cosines[i] / (weights[i] * pdf) - 1) <= allowed);
+                ++compared;
+            }
+            INFO(ndf);
+            CHECK(off == 0);
+            CHECK(compared > rows.rows() / 8);
+        }
+}
+
+TEST_CASE("a function of a lobe has the bits of the one that sets it up itself") {
+    std::size_t compared = 0;
+    for (const Real real : reals)
+        for (const Function& function : functions()) {
+            const std::size_t at = function.name.find("_lobe");
+            if (at == std::string::npos) continue;
+            std::string plain = function.name;
+            plain.erase(at, 5);
+            INFO(function.name);
+            REQUIRE(find_function(plain));
+            const Table rows = digest_inputs(function, std::size_t{1} << 12, real);
+            CHECK(evaluate_on_host(real, function.name, rows) == evaluate_on_host(real, plain, rows));
+            ++compared;
+        }
+    CHECK(compared >= 2 * 36);
 }

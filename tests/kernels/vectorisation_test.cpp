@@ -55,12 +55,27 @@ std::map<std::string, Remarks> parse(const std::string& text) {
     return all;
 }
 
-// Everything that a process prints which compiles the program at `root` with remarks.
-std::string remarks(const std::string& root) {
+// A mistake that keeps the cap from being vectorised: a builtin that PoCL calls once for each work-item.
+const std::string mutant_function = "vndf_ggx_sample_wm_dupuy2023";
+const runtime::Substitution scalar_call{"kernels/vndf/impl/lobe.h", "radius * vndf_impl_circle_cos(u1)",
+                                        "radius * pow(u1, radius)", 1};
+
+// What a process compiles that is started to print remarks, by its environment: the program at CLVNDF_REMARKS_ROOT, in
+// CLVNDF_REMARKS_REAL, with CLVNDF_REMARKS_MUTANT 1 of the mistake alone the functions of the cap.
+struct Compilation {
+    std::string root;
+    runtime::Real real = runtime::Real::f32;
+    bool mutant = false;
+};
+
+// Everything that such a process prints.
+std::string remarks(const Compilation& compilation) {
     std::string folder = (std::filesystem::temp_directory_path() / "clvndf-remarks-XXXXXX").string();
     REQUIRE(mkdtemp(folder.data()));
     const std::string command = "POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR='" + folder +
-                                "' CLVNDF_REMARKS_ROOT='" + root + "' '" +
+                                "' CLVNDF_REMARKS_ROOT='" + compilation.root + "' CLVNDF_REMARKS_REAL=" +
+                                std::string(to_string(compilation.real)) + " CLVNDF_REMARKS_MUTANT=" +
+                                (compilation.mutant ? "1" : "0") + " '" +
                                 std::filesystem::read_symlink("/proc/self/exe").string() +
                                 "' 'compiles every entry point' >'" + folder + "/remarks' 2>&1";
     const int status = std::system(command.c_str());
@@ -97,15 +112,22 @@ std::string not_vectorised(const std::map<std::string, Remarks>& all) {
 TEST_CASE("compiles every entry point", "[.]") {
     const char* root = std::getenv("CLVNDF_REMARKS_ROOT");
     if (!root) return;  // not the child process of remarks()
+    const bool in_double = std::getenv("CLVNDF_REMARKS_REAL") == to_string(runtime::Real::f64);
     runtime::ProgramOptions options;
     options.root = root;
     options.more_files = bench::sources();
+    if (std::getenv("CLVNDF_REMARKS_MUTANT") == std::string("1")) {
+        options.functions = {mutant_function};
+        options.substitutions = {scalar_call};
+        options.mutant = 1;
+    }
     runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict,
-                                       runtime::Real::f32, options);
+                                       in_double ? runtime::Real::f64 : runtime::Real::f32, options);
     for (const Function& function : functions()) {
         if (!evaluator.program().has_kernel("vndf_batch_" + function.name)) continue;
-        std::vector<std::vector<float>> arrays(function.inputs.size() + function.outputs.size(),
-                                               std::vector<float>(64, 0.5f));
+        // Numbers of the larger type: what they are does not matter.
+        std::vector<std::vector<double>> arrays(function.inputs.size() + function.outputs.size(),
+                                                std::vector<double>(64, 0.5));
         std::vector<const void*> inputs;
         std::vector<void*> outputs;
         for (std::size_t i = 0; i < arrays.size(); ++i)
@@ -117,7 +139,7 @@ TEST_CASE("compiles every entry point", "[.]") {
 
 TEST_CASE("every entry point is vectorised across work-items on PoCL") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
-    auto all = parse(remarks(own_root));
+    auto all = parse(remarks({own_root}));
     for (const Function& function : functions()) all[function.name];  // without remarks: not vectorised
     for (const auto& [name, reason] : exceptions) {
         INFO(name << " is an exception: " << reason);
@@ -128,9 +150,26 @@ TEST_CASE("every entry point is vectorised across work-items on PoCL") {
     CHECK(not_vectorised(all) == "");
 }
 
+TEST_CASE("in double every sampler is vectorised across work-items on PoCL") {
+    if (!on_pocl()) VNDF_SKIP(not_pocl);
+    if (!runtime::choose_device().device.fp64) VNDF_SKIP("the chosen device has no double");
+    auto all = parse(remarks({own_root, runtime::Real::f64}));
+    std::erase_if(all, [](const auto& entry) {
+        const Function* function = find_function(entry.first);
+        return !function || function->kind != Kind::sampler;
+    });
+    for (const Function& function : functions())
+        if (function.kind == Kind::sampler) all[function.name];
+    CHECK(not_vectorised(all) == "");
+
+    auto mistaken = parse(remarks({own_root, runtime::Real::f64, true}));
+    INFO("a call for each work-item is not vectorised, and the test sees it");
+    CHECK_FALSE(vectorised(mistaken[mutant_function]));
+}
+
 TEST_CASE("the published listings, ported line by line, are not vectorised, and the test sees it") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
-    const auto all = parse(remarks(published_root));
+    const auto all = parse(remarks({published_root}));
     CHECK(all.size() >= 6);  // seven; one is too long to be inlined, without which there is no remark
     for (const auto& [name, remarks] : all) {
         INFO(name);

@@ -98,10 +98,11 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_front_sigma(struct vndf_beckmann_lobe lobe)
     return VNDF_FMA(lobe.l, vndf_impl_beckmann_hidden(lobe), lobe.wo_z);
 }
 
+// Of either side by one exponential.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_sigma(struct vndf_beckmann_lobe lobe) {
-    VNDF_REAL behind = vndf_impl_scaled_expx2(lobe.slopes.steep, lobe.l * vndf_impl_beckmann_hidden(lobe));
-    VNDF_REAL sigma = lobe.slopes.front ? vndf_impl_beckmann_front_sigma(lobe) : behind;
-    return vndf_impl_finite(sigma) + vndf_impl_zero(lobe.wo_x, lobe.wo_y, lobe.wo_z);
+    VNDF_REAL unseen = vndf_impl_scaled_expx2(lobe.slopes.steep, lobe.l * lobe.slopes.ierfcx);
+    return vndf_impl_finite(unseen + vndf_impl_max(lobe.wo_z, VNDF_R(0.0))) +
+           vndf_impl_zero(lobe.wo_x, lobe.wo_y, lobe.wo_z);
 }
 
 // wi as another lobe of the same roughness, of which only the terms that are asked for are computed. Made dependent on wo's,

@@ -27,6 +27,8 @@ struct vndf_impl_incidence_slopes {
     VNDF_REAL steep;     // |a|
     VNDF_REAL a;         // |a|, at most 2^30 (double: 2^60): beyond, y is as 1 / |a|
     VNDF_REAL gaussian;  // in front e^(-a^2) where it counts beside a, behind 1
+    VNDF_REAL erfcx;     // E(|a|)
+    VNDF_REAL ierfcx;    // I(|a|)
     VNDF_REAL hidden;    // I(|a|) gaussian: in front h, behind A
     VNDF_REAL plateau;   // in front a, behind 0
     VNDF_REAL area;      // A
@@ -38,7 +40,10 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     i.steep = steep;
     i.a = vndf_impl_min(steep, VNDF_IMPL_COT_LIMIT);
     i.gaussian = vndf_impl_moderate_exp(-bounded * bounded);
-    i.hidden = i.gaussian * vndf_impl_scaled_erfc_of(i.a).ierfcx;
+    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(i.a);
+    i.erfcx = f.erfcx;
+    i.ierfcx = f.ierfcx;
+    i.hidden = i.gaussian * f.ierfcx;
     i.plateau = front ? i.a : VNDF_R(0.0);
     i.area = i.plateau + i.hidden;
     return i;

@@ -20,7 +20,7 @@ VNDF_BEGIN
 
 // theta of 2^27 v, whose squares neither underflow nor overflow.
 struct vndf_impl_axis {
-    VNDF_REAL t;  // r
+    VNDF_REAL t, l2;  // r, l^2
     // weight l / height = tan(theta / 2): height = r + z above the surface; below it l^2, and the weight r - z, both over
     // about l.
     VNDF_REAL height, weight, z;  // z: weight v.z
@@ -29,7 +29,8 @@ struct vndf_impl_axis {
 
 // What stands for l = 0: nothing beside r + z, and not lost below the surface.
 VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
-    return z >= VNDF_R(0.0) ? VNDF_R(9.31322574615478516e-10) : VNDF_R(8.67361737988403547e-19);
+    VNDF_REAL above = VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10);
+    return z >= VNDF_R(0.0) ? above : VNDF_R(8.67361737988403547e-19);
 }
 
 VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
@@ -44,6 +45,7 @@ VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
 #endif
     VNDF_REAL weight = sum * scale, height = l2 * scale;
     v.t = r;
+    v.l2 = l2;
     v.weight = front ? VNDF_R(1.0) : weight;
     v.height = front ? sum : height;
     v.z = v.weight * z;

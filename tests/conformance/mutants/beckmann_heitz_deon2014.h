@@ -17,5 +17,5 @@
      "VNDF_REAL keep = a - x, swap = a + x;",  "VNDF_REAL keep = a + x, swap = a - x;",
      "vndf_beckmann_sample_wm_heitz_deon2014", {"KS of pivot 1", "pointwise, front"}},
     {"Beckmann 2014: nothing at the horizon",  "beckmann_heitz_deon2014.h",
-     "vndf_impl_where(wo.z >= VNDF_R(0.0),",   "vndf_impl_where(wo.z > VNDF_R(0.0),",
+     "vndf_impl_where(front,",                 "vndf_impl_where(lobe.wo_z > VNDF_R(0.0),",
      "vndf_beckmann_sample_wm_heitz_deon2014", {"pointwise, at the horizon"}},

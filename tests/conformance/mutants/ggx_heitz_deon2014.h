@@ -7,10 +7,10 @@
  {"chi2 of the pivots", "KS of pivot 2", "pointwise"}},
     {"2014: the threshold of normal incidence, on the stretched cosine",
      "ggx_heitz_deon2014.h",
-     "i.slope = vndf_impl_ggx_slope(cap.z, cap.sine, cap.p, cap.q, cap.sqrt_p, vndf_impl_u(u1));",
-     "int tilted = cap.z < VNDF_R(0.99999);\n"
-     "    i.slope = vndf_impl_ggx_slope(tilted ? cap.z : VNDF_R(1.0), tilted ? cap.sine : VNDF_R(0.0), "
-     "tilted ? cap.p : VNDF_R(2.0), tilted ? cap.q : VNDF_R(0.0), tilted ? cap.sqrt_p : "
+     "i.slope = vndf_impl_ggx_slope(polar.z, polar.sine, polar.p, polar.q, polar.sqrt_p, vndf_impl_u(u1));",
+     "int tilted = polar.z < VNDF_R(0.99999);\n"
+     "    i.slope = vndf_impl_ggx_slope(tilted ? polar.z : VNDF_R(1.0), tilted ? polar.sine : VNDF_R(0.0), "
+     "tilted ? polar.p : VNDF_R(2.0), tilted ? polar.q : VNDF_R(0.0), tilted ? polar.sqrt_p : "
      "VNDF_R(1.41421356), vndf_impl_u(u1));",
      "vndf_ggx_sample_wm_heitz_deon2014_exact",
      {"pointwise, front"}},
@@ -18,8 +18,8 @@
      "vndf_ggx_sample_wm_heitz_deon2014", {"fit: ", "pointwise"}},
     {"the fit: nothing at the horizon",
      "ggx_heitz_deon2014.h",
-     "return vndf_impl_where(i.z >= VNDF_R(0.0), m);",
-     "return vndf_impl_where(i.z > VNDF_R(0.0), m);",
+     "return vndf_impl_where(lobe.wo_z >= VNDF_R(0.0), m);",
+     "return vndf_impl_where(lobe.wo_z > VNDF_R(0.0), m);",
      "vndf_ggx_sample_wm_heitz_deon2014_with_pdf",
      {"density of the exact sample"}},
     {"two digits of the fit's denominator swapped",

@@ -1,12 +1,5 @@
 // Seeded mistakes in impl/beckmann_slopes.h: rows of Mutant (mutants.h).
-{"2014: the same threshold of Beckmann",
- "impl/beckmann_slopes.h",
- "f.slopes = vndf_impl_beckmann_incidence(steep, wo.z >= VNDF_R(0.0));",
- "f.slopes = vndf_impl_beckmann_incidence(steep > VNDF_R(223.6) ? VNDF_IMPL_STEEP_LIMIT : steep, wo.z >= "
- "VNDF_R(0.0));",
- "vndf_beckmann_sample_wm_heitz_deon2014",
- {"pointwise, front"}},
-    {"an anisotropic lobe sampled isotropically",
+{"an anisotropic lobe sampled isotropically",
      "impl/beckmann_slopes.h",
      "gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t)",
      "gy = VNDF_FMA(alpha_x * ex, y, alpha_x * ey * t)",
