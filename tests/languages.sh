@@ -145,6 +145,15 @@ if have clang "C++ for OpenCL"; then
             done
         done
     done
+    # No product and sum of ours is contracted, and the one of the program around is.
+    printf '%s\n' '#include "vndf/vndf.h"' 'kernel void k(global float* x, float a, float b) {' \
+        'float3 m = vndf_ggx_sample_wm_dupuy2023((float3)(x[0], x[1], x[2]), (float2)(a, b), (float2)(x[3], x[4]));' \
+        'x[0] = m.x + m.y + m.z; x[1] = x[5] * a + b; }' >"$work/contraction.cl"
+    for target in spir64 amdgcn nvptx64 x86_64; do
+        contracted=$(clang -x cl -cl-std=CL1.2 -target $target -Xclang -finclude-default-header -O1 -S -emit-llvm \
+            -I "$project/kernels" -o - "$work/contraction.cl" 2>"$work/log" | grep -c '= .*call.*llvm.fmuladd')
+        [ "$contracted" = 1 ] || failed "$target: $contracted products and sums contracted, not 1"
+    done
     # CUDA and HIP as clang reads them, without their headers; and NVRTC by what it defines.
     for real in float double; do
         compiles clang -x cuda --cuda-gpu-arch=sm_70 --cuda-device-only -nocudainc -nocudalib -fsyntax-only \

@@ -92,7 +92,7 @@ void require_language_with_policy(const Options& options) {
 
 // What the user may want to know before the functions.
 std::string introduction(const Options& options) {
-    std::string out = commented(stamp(options)) + "//\n" + commented(licence_files().at(0).text) + "//\n";
+    std::string out = "//\n" + commented(licence_files().at(0).text) + "//\n";
     out += commented(fmt::format(
         "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors away from the surface, "
         "z along its normal. alpha: no perceptual roughness. u: uniform in [0, 1]. eps: {}. VNDF_FN, how "
@@ -155,7 +155,9 @@ std::string prologue(const Options& options, bool copies_bits) {
 
 std::string epilogue(const Options& options) {
     const bool opencl = options.language == Language::opencl || options.language == Language::string;
-    return opencl ? "#ifdef __x86_64__\n#pragma float_control(pop)\n#endif\n#endif\n" : "#endif\n";
+    return opencl ? "#pragma OPENCL FP_CONTRACT DEFAULT\n#ifdef __x86_64__\n#pragma "
+                    "float_control(pop)\n#endif\n#endif\n"
+                  : "#endif\n";
 }
 
 // As string literals of C and C++; beyond what compilers take of one (MSVC: 65535 characters) as an array of lines.
@@ -172,16 +174,18 @@ std::string as_string(const std::string& source, const Options& options) {
     }
     lines.pop_back();
     if (lines.back() == ',') lines.pop_back();
+    const std::string name = renamed("vndf_source", options.prefix);
     const std::string declaration =
         array ? "/* Lines, since compilers limit the length of one literal. */\n"
-                "static const char* const vndf_source[] = {\n" +
-                    lines + "\n};\n"
+                "static const char* const " +
+                    name + "[] = {\n" + lines + "\n};\n"
               // ISO C asks compilers for 4095 characters alone, of which GCC and clang warn under -pedantic.
               : "#ifdef __GNUC__\n#pragma GCC diagnostic push\n"
                 "#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n#endif\n"
-                "static const char vndf_source[] =\n" +
-                    lines + ";\n#ifdef __GNUC__\n#pragma GCC diagnostic pop\n#endif\n";
-    return commented(stamp(options)) + "#ifndef VNDF_SOURCE_H\n#define VNDF_SOURCE_H\n\n" + declaration +
+                "static const char " +
+                    name + "[] =\n" + lines + ";\n#ifdef __GNUC__\n#pragma GCC diagnostic pop\n#endif\n";
+    const std::string guard = renamed("VNDF_SOURCE_H", options.prefix);
+    return commented(stamp(options)) + fmt::format("#ifndef {0}\n#define {0}\n\n", guard) + declaration +
            "\n#endif\n";
 }
 
@@ -250,10 +254,10 @@ std::string emit(const Options& options) {
     }
     if (options.selftest) body += selftest(options) + '\n';
     const bool copies_bits = body.find("memcpy(") != body.npos;
-    std::string text =
+    const std::string rest =
         introduction(options) + prologue(options, copies_bits) + '\n' + body + epilogue(options);
-    if (options.language == Language::string) text = as_string(text, options);
-    return renamed(text, options.prefix);
+    const std::string text = commented(stamp(options)) + renamed(rest, options.prefix);
+    return options.language == Language::string ? as_string(text, options) : text;
 }
 
 }  // namespace vndf::emit

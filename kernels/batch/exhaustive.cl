@@ -17,6 +17,8 @@
 #include "../vndf/vndf.h"
 #include "shapes.h"
 
+#pragma OPENCL FP_CONTRACT OFF
+
 VNDF_FN int vndf_exhaustive_finite(VNDF_REAL x) {
     return (VNDF_AS_INT(x) & 0x7f800000) != 0x7f800000;
 }

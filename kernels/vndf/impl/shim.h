@@ -45,7 +45,16 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__) || defined(__OPENCL_VERSION__)
 
+// Contraction is off in these headers, and after them what the build options say: a renderer's own code keeps it. A compiler
+// that may not know the operator loses it altogether.
+#ifdef __clang__
+#define VNDF_IMPL_UNCONTRACTED _Pragma("OPENCL FP_CONTRACT OFF")
+#define VNDF_IMPL_CONTRACTED _Pragma("OPENCL FP_CONTRACT DEFAULT")
+#else
 #pragma OPENCL FP_CONTRACT OFF
+#define VNDF_IMPL_UNCONTRACTED
+#define VNDF_IMPL_CONTRACTED
+#endif
 #if VNDF_DOUBLE && defined(cl_khr_fp64) && defined(__OPENCL_C_VERSION__)
 #if __OPENCL_C_VERSION__ < 120
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -55,8 +64,8 @@
 #ifndef VNDF_FN
 #define VNDF_FN static inline __attribute__((always_inline, __unused__))
 #endif
-#define VNDF_BEGIN VNDF_IMPL_LITERALLY
-#define VNDF_END VNDF_IMPL_NOT_LITERALLY
+#define VNDF_BEGIN VNDF_IMPL_LITERALLY VNDF_IMPL_UNCONTRACTED
+#define VNDF_END VNDF_IMPL_CONTRACTED VNDF_IMPL_NOT_LITERALLY
 
 #define VNDF_REAL2 VNDF_CAT(VNDF_REAL, 2)
 #define VNDF_REAL3 VNDF_CAT(VNDF_REAL, 3)
@@ -66,9 +75,11 @@
 #define VNDF_MAKE4(x, y, z, w) ((VNDF_REAL4)(x, y, z, w))
 
 #if VNDF_SOFTWARE_FMA
+VNDF_BEGIN
 VNDF_FN VNDF_REAL vndf_impl_fma(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c) {
     return c == VNDF_R(0.0) ? a * b + c : fma(a, b, c);
 }
+VNDF_END
 #define VNDF_FMA(a, b, c) vndf_impl_fma(a, b, c)
 #else
 #define VNDF_FMA(a, b, c) fma(a, b, c)
