@@ -70,10 +70,10 @@ std::string introduction(const Options& options) {
         "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors that point away from "
         "the\n"
         "surface, in a right-handed frame with z along its normal. alpha: parameters of the distribution, "
-        "not\n"
-        "perceptual. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions are "
-        "declared,\n"
-        "may be set.\n");
+        "no\n"
+        "perceptual roughness. u: uniform in [0, 1]. eps: 2^-24, in double 2^-53. VNDF_FN, how functions "
+        "are\n"
+        "declared, may be set before.\n");
     return out;
 }
 
