@@ -36,6 +36,9 @@ cannot "no $empty/clvndf_tests: build it first" "$tests/oclgrind.sh" "$project" 
 rm "$empty/clvndf"
 cannot "no $empty/clvndf: build it first" "$tests/rusticl.sh" "$project" "$empty"
 cannot "no function nosuch" "$tests/rusticl.sh" "$project" "$build" nosuch
+cannot "usage: fast_math.sh" "$tests/fast_math.sh" --quick
+cannot "$empty is not the source folder" "$tests/fast_math.sh" "$empty" "$build" "$empty/work"
+cannot "no $empty/host/libclvndf_host.a: build it first" "$tests/fast_math.sh" "$project" "$empty" "$empty/work"
 cannot "no $empty/host/libclvndf_host.a: build it first" "$tests/same_bits.sh" "$project" "$empty" "$empty/work"
 : >"$empty/file"
 cannot "$empty/file/work: cannot make this folder" "$tests/same_bits.sh" "$project" "$build" "$empty/file/work"
