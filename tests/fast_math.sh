@@ -61,6 +61,17 @@ vndf_ggx_invert_wi_conic2026 value"
 measured "cycles, nothing switched off" "$clvndf" policies $quick --quiet --flags "cycles -DVNDF_IMPL_PRECISE=0" \
     --only walter2007 && echo "the check cannot fail" && status=1
 
+# What `clvndf emit` writes for OpenCL answers with the bits of the library under Fluctus' flags; without the pragmas it does not.
+if command -v g++ >/dev/null; then
+    g++ -std=c++17 -w "$project/tests/support/emitted_selftest.cpp" -o "$work/on_device" -lOpenCL &&
+        "$clvndf" emit beckmann_sample_wm_walter2007 jacobian_refract --selftest -o "$work/emitted.cl" &&
+        grep -v float_control "$work/emitted.cl" >"$work/bare.cl" || status=1
+    fluctus="-cl-denorms-are-zero -cl-fast-relaxed-math"
+    echo "emitted: $("$work/on_device" "$work/emitted.cl" "$fluctus")"
+    "$work/on_device" "$work/emitted.cl" "$fluctus" >/dev/null || status=1
+    "$work/on_device" "$work/bare.cl" "$fluctus" >/dev/null && echo "the check of emitted files cannot fail" && status=1
+fi
+
 # cpp COMPILER OPTION...: the host build.
 cpp() {
     options="-std=c++20 -DVNDF_ALLOW_FAST_MATH=1 -DVNDF_REAL=float -DVNDF_MATH=strict -Wall -Wextra -Werror -I$project

@@ -15,15 +15,13 @@ namespace {
 
 struct Policies {
     std::string device, real = "float", only, json;
-    std::optional<std::string> flags;
+    std::vector<runtime::FlagSet> flags;  // empty: the policies
     bool quick = false;
 };
 
 void run_policies(const Policies& options, Common& common) {
     const auto selected = selected_by(options.only);
-    const auto sets =
-        options.flags ? runtime::parse_flag_sets(*options.flags) : std::vector<runtime::FlagSet>();
-    if (!sets.empty() && options.real != "float")
+    if (!options.flags.empty() && options.real != "float")
         throw InputError("--flags --real double: fast math is promised and measured in float");
     const bool table = !is_standard_output(options.json);
     if (table) require_output();
@@ -44,10 +42,10 @@ void run_policies(const Policies& options, Common& common) {
         if (table) put(conformance::format_table(report));
         common.exit_status = report.passed() ? 0 : 1;
     };
-    if (sets.empty())
+    if (options.flags.empty())
         show(conformance::measure_policies(device, target.real(), selected, check));
     else
-        show(conformance::measure_fast_math(device, sets, selected, check));
+        show(conformance::measure_fast_math(device, options.flags, selected, check));
 }
 
 }  // namespace
@@ -63,8 +61,8 @@ void add_policies(CLI::App& app, Common& common) {
         ->check(CLI::IsMember({"float", "double"}))
         ->capture_default_str();
     add_only(*command, options->only);
-    command->add_option(
-        "--flags", options->flags,
+    command->add_option_function<std::string>(
+        "--flags", [options](const std::string& text) { options->flags = runtime::parse_flag_sets(text); },
         "the promise of fast math instead, in these builds: renderers' names (luxcore, baikal, fluctus,\n"
         "cycles, hydracore), OpenCL's flags, several with spaces between them, further sets after\n"
         "commas; renderers: all of these; pairs: each flag and each two. Exit status 1 if one breaks it");
