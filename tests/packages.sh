@@ -135,7 +135,7 @@ python_component() {
 
 # With cpack, and on a bare system of this release as root.
 debian_package() {
-    have dpkg-shlibdeps "the Debian package" && have cpack "the Debian package" || return
+    for tool in cpack dpkg-shlibdeps file; do have $tool "the Debian package" || return; done
     rm -rf "$work/deb"
     well cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work/deb"
     package=$(ls "$work"/deb/clvndf_*.deb)
