@@ -210,8 +210,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_beckmann_eval_pdf(struct vndf_beckmann_lobe lobe, V
     struct vndf_impl_power ratio = vndf_impl_split(above ? seen / both : VNDF_R(1.0));
     VNDF_REAL value =
         vndf_impl_finite(vndf_impl_times_power(pdf.part * ratio.part, pdf.exponent + ratio.exponent));
-    return VNDF_MAKE2(above ? value : VNDF_R(0.0),
-                      lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
+    return VNDF_MAKE2(above ? value : VNDF_R(0.0), lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
 }
 
 // A reflection's value and density from common terms.

@@ -81,8 +81,7 @@ double pair_error(const Row& row, const R* out) {
     const R unit = std::numeric_limits<R>::epsilon() / 2;
     double worst = 0;
     for (std::size_t k = 0; k < 2; ++k) {
-        const double allowed =
-            static_cast<double>(unit) * (1 + (k == 0 ? row.condition : row.pdf_condition));
+        const double allowed = static_cast<double>(unit) * (1 + (k == 0 ? row.condition : row.pdf_condition));
         const long double off = std::abs(static_cast<long double>(out[k]) - row.out[k]);
         const double error = off == 0 ? 0 : static_cast<double>(off / std::abs(row.out[k])) / allowed;
         worst = std::max(worst, std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
