@@ -159,7 +159,7 @@ std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 
     if (sampler.arguments == "ALPHA_U") return {l.ax, l.ay, u1, u2};
     const double x = s * std::cos(l.phi), y = s * std::sin(l.phi), z = l.cos_theta;
     if (sampler.arguments == "WO_ALPHA_U" || sampler.arguments == "CONIC2026_LOBE_U" ||
-        sampler.arguments == "LOBE_U")
+        sampler.arguments == "LOBE_U" || sampler.arguments == "BECKMANN_LOBE_U")
         return {x, y, z, l.ax, l.ay, u1, u2};
     if (sampler.arguments == "WO_ALPHA1_U") return {x, y, z, l.ax, u1, u2};
     // The frame turned by c = 0.6 about y: z -> n.
