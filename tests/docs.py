@@ -23,6 +23,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench/results/pocl-3.1.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
+CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 
 
@@ -209,6 +210,16 @@ def instructions():
         yield f"`{name.removeprefix('vndf_')}`", *cells
 
 
+def calls():
+    counts = dict(line.split(maxsplit=1) for line in CALLS.read_text("utf-8").splitlines()[1:])
+    shown = {name: ", ".join(numbers.split()) for name, numbers in counts.items()}
+    for name in shown:
+        if name.startswith("vndf_calls_separate_"):
+            fused = name.removeprefix("vndf_calls_separate_")
+            yield f"`{fused}`", shown[f"vndf_batch_vndf_{fused}"], shown[name]
+    yield "the README's example: sample, reflection, weight and density", shown["sample_metal"], ""
+
+
 # --- The committed run beside Mitsuba ---
 
 def code(name):
@@ -262,6 +273,7 @@ TABLES = {
         times((STREAM, CACHED, COMPUTE, ("builtin/float", "stream"), ("strict/double", "stream"), ("cpp/float", "stream"), PUBLISHED))),
     "instructions": lambda build: table(["sampler", *(f"{target} {what}" for target in ("sm_80", "gfx900") for what in
                                          ("strict", "lean", "published", "registers"))], instructions()),
+    "calls": lambda build: table(["function", "common terms", "separate calls"], calls()),
     "price": lambda build: table(["sampler", "ns", "price", "median", "99 %", "maximum", "behind: 99 %", "maximum"], price()),
     "spread": lambda build: table(["mode", "two identical kernels differ by up to"], spread()),
     "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "times one", "structures", "distance as argument",

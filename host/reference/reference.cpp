@@ -129,28 +129,28 @@ struct Entry {
 };
 
 // Expands X(name, map, layout) for every sampler.
-#define VNDF_REFERENCE_SAMPLERS(X)                                                   \
-    X(vndf_ggx_sample_wm_heitz_deon2014, ggx_heitz_deon2014, wo_alpha_u)             \
-    X(vndf_ggx_sample_wm_heitz_deon2014_exact, ggx_heitz_deon2014_exact, wo_alpha_u) \
+#define VNDF_REFERENCE_SAMPLERS(X)                                                        \
+    X(vndf_ggx_sample_wm_heitz_deon2014, ggx_heitz_deon2014, wo_alpha_u)                  \
+    X(vndf_ggx_sample_wm_heitz_deon2014_exact, ggx_heitz_deon2014_exact, wo_alpha_u)      \
     X(vndf_ggx_sample_wm_heitz_deon2014_lobe, ggx_heitz_deon2014, wo_alpha_u)             \
     X(vndf_ggx_sample_wm_heitz_deon2014_exact_lobe, ggx_heitz_deon2014_exact, wo_alpha_u) \
-    X(vndf_ggx_sample_wm_heitz2017, ggx_heitz2017, wo_alpha_u)                       \
-    X(vndf_ggx_sample_wm_heitz2017_lobe, ggx_heitz2017, wo_alpha_u)                  \
-    X(vndf_ggx_sample_wm_heitz2018, ggx_heitz2018, wo_alpha_u)                       \
-    X(vndf_ggx_sample_wm_heitz2018_lobe, ggx_heitz2018, wo_alpha_u)                  \
-    X(vndf_ggx_sample_wm_dupuy2023, ggx_dupuy2023, wo_alpha_u)                       \
-    X(vndf_ggx_sample_wm_dupuy2023_lobe, ggx_dupuy2023, wo_alpha_u)                  \
-    X(vndf_ggx_sample_wm_benyoub2024, ggx_benyoub2024, wo_n_alpha1_u)                \
-    X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                           \
-    X(vndf_ggx_sample_wi_eto2023_lobe, ggx_eto2023, wo_alpha_u)                      \
-    X(vndf_ggx_sample_wi_eto2023_polygon, ggx_eto2023_polygon, wo_alpha_u)           \
-    X(vndf_ggx_sample_wi_eto2023_polygon_lobe, ggx_eto2023_polygon, wo_alpha_u)      \
-    X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                       \
-    X(vndf_ggx_sample_wi_conic2026_lobe, ggx_conic2026, wo_alpha_u)                  \
-    X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)            \
-    X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                        \
-    X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)   \
-    X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)             \
+    X(vndf_ggx_sample_wm_heitz2017, ggx_heitz2017, wo_alpha_u)                            \
+    X(vndf_ggx_sample_wm_heitz2017_lobe, ggx_heitz2017, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_heitz2018, ggx_heitz2018, wo_alpha_u)                            \
+    X(vndf_ggx_sample_wm_heitz2018_lobe, ggx_heitz2018, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_dupuy2023, ggx_dupuy2023, wo_alpha_u)                            \
+    X(vndf_ggx_sample_wm_dupuy2023_lobe, ggx_dupuy2023, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wm_benyoub2024, ggx_benyoub2024, wo_n_alpha1_u)                     \
+    X(vndf_ggx_sample_wi_eto2023, ggx_eto2023, wo_alpha_u)                                \
+    X(vndf_ggx_sample_wi_eto2023_lobe, ggx_eto2023, wo_alpha_u)                           \
+    X(vndf_ggx_sample_wi_eto2023_polygon, ggx_eto2023_polygon, wo_alpha_u)                \
+    X(vndf_ggx_sample_wi_eto2023_polygon_lobe, ggx_eto2023_polygon, wo_alpha_u)           \
+    X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                            \
+    X(vndf_ggx_sample_wi_conic2026_lobe, ggx_conic2026, wo_alpha_u)                       \
+    X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)                 \
+    X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                             \
+    X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)        \
+    X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)                  \
     X(vndf_beckmann_sample_wm_heitz_deon2014_lobe, beckmann_heitz_deon2014, wo_alpha_u)   \
     X(vndf_beckmann_sample_wm_jakob2014_lobe, beckmann_jakob2014, wo_alpha_u)             \
     X(vndf_beckmann_sample_wm_walter2007, beckmann_walter2007, alpha_u)

@@ -151,10 +151,10 @@ VNDF_FN VNDF_REAL vndf_beckmann_weight_lobe(struct vndf_beckmann_lobe lobe, VNDF
 
 VNDF_FN VNDF_REAL vndf_impl_beckmann_pdf_wm(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wm) {
     VNDF_REAL cosine = vndf_impl_dot(lobe.wo_x, lobe.wo_y, lobe.wo_z, wm.x, wm.y, wm.z);
-    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rcp = VNDF_R(1.0) / z;
+    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z), rcp = z * rise;
     int faces = wm.z > VNDF_R(0.0) && cosine > VNDF_R(0.0);
-    struct vndf_impl_power pdf = vndf_impl_beckmann_visible(lobe, wm.x * rcp, wm.y * rcp, z, cosine, 0,
-                                                            rcp * rcp, faces ? cosine : VNDF_R(0.0));
+    struct vndf_impl_power pdf = vndf_impl_beckmann_visible(lobe, wm.x * rcp, wm.y * rcp, z, cosine, 0, rise,
+                                                            faces ? cosine : VNDF_R(0.0));
     return faces ? vndf_impl_finite(vndf_impl_times_power(pdf.part, pdf.exponent)) : VNDF_R(0.0);
 }
 
@@ -210,8 +210,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_beckmann_eval_pdf(struct vndf_beckmann_lobe lobe, V
     struct vndf_impl_power ratio = vndf_impl_split(above ? seen / both : VNDF_R(1.0));
     VNDF_REAL value =
         vndf_impl_finite(vndf_impl_times_power(pdf.part * ratio.part, pdf.exponent + ratio.exponent));
-    return VNDF_MAKE2(above ? value : VNDF_R(0.0),
-                      lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
+    return VNDF_MAKE2(above ? value : VNDF_R(0.0), lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
 }
 
 // A reflection's value and density from common terms.

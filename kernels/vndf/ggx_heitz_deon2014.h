@@ -42,8 +42,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_slope_normal(struct vndf_impl_inci
 
 // The conditional distribution of z = tan(lambda) has the tail (eta - sin eta) / (2 pi), eta = pi - 2
 // |lambda|.
-VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(struct vndf_ggx_lobe lobe,
-                                                                   VNDF_REAL2 u) {
+VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014_exact(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     struct vndf_impl_incidence i = vndf_impl_ggx_incidence(lobe, u.x);
     VNDF_REAL u2 = vndf_impl_u(u.y);
     int upper = u2 > VNDF_R(0.5);

@@ -147,9 +147,8 @@ TEST_CASE("NaN in a direction is not hidden by a term") {
 
 TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
     for (const Real real : reals)
-        for (const char* name :
-             {"vndf_ggx_g2", "vndf_ggx_g2_lobe", "vndf_ggx_g2_separable", "vndf_beckmann_g2",
-              "vndf_beckmann_g2_lobe", "vndf_beckmann_g2_separable"}) {
+        for (const char* name : {"vndf_ggx_g2", "vndf_ggx_g2_lobe", "vndf_ggx_g2_separable",
+                                 "vndf_beckmann_g2", "vndf_beckmann_g2_lobe", "vndf_beckmann_g2_separable"}) {
             const Table rows = digest_inputs(*find_function(name), std::size_t{1} << 14, real);
             const auto one = evaluate_on_host(real, name, rows),
                        other = evaluate_on_host(real, name, exchanged(rows));
@@ -211,7 +210,8 @@ TEST_CASE("the value of a reflection times its cosine is its weight times its de
             const auto weights = evaluate_on_host(real, weight.name, rows)[0];
             const auto& cosines = rows.columns[5];
             // The errors of D are those of both numbers; that of the weight comes on top.
-            const double allowed = (bounds_of(pair, real).error + bounds_of(weight, real).error) * epsilon(real);
+            const double allowed =
+                (bounds_of(pair, real).error + bounds_of(weight, real).error) * epsilon(real);
             std::size_t compared = 0, off = 0;
             for (std::size_t i = 0; i < rows.rows(); ++i) {
                 const double value = evaluated[0][i], pdf = evaluated[1][i];

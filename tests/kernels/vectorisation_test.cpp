@@ -73,9 +73,9 @@ std::string remarks(const Compilation& compilation) {
     std::string folder = (std::filesystem::temp_directory_path() / "clvndf-remarks-XXXXXX").string();
     REQUIRE(mkdtemp(folder.data()));
     const std::string command = "POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR='" + folder +
-                                "' CLVNDF_REMARKS_ROOT='" + compilation.root + "' CLVNDF_REMARKS_REAL=" +
-                                std::string(to_string(compilation.real)) + " CLVNDF_REMARKS_MUTANT=" +
-                                (compilation.mutant ? "1" : "0") + " '" +
+                                "' CLVNDF_REMARKS_ROOT='" + compilation.root +
+                                "' CLVNDF_REMARKS_REAL=" + std::string(to_string(compilation.real)) +
+                                " CLVNDF_REMARKS_MUTANT=" + (compilation.mutant ? "1" : "0") + " '" +
                                 std::filesystem::read_symlink("/proc/self/exe").string() +
                                 "' 'compiles every entry point' >'" + folder + "/remarks' 2>&1";
     const int status = std::system(command.c_str());

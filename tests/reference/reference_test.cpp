@@ -81,8 +81,7 @@ double pair_error(const Row& row, const R* out) {
     const R unit = std::numeric_limits<R>::epsilon() / 2;
     double worst = 0;
     for (std::size_t k = 0; k < 2; ++k) {
-        const double allowed =
-            static_cast<double>(unit) * (1 + (k == 0 ? row.condition : row.pdf_condition));
+        const double allowed = static_cast<double>(unit) * (1 + (k == 0 ? row.condition : row.pdf_condition));
         const long double off = std::abs(static_cast<long double>(out[k]) - row.out[k]);
         const double error = off == 0 ? 0 : static_cast<double>(off / std::abs(row.out[k])) / allowed;
         worst = std::max(worst, std::isfinite(error) ? error : std::numeric_limits<double>::infinity());
@@ -160,7 +159,7 @@ std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 
     if (sampler.arguments == "ALPHA_U") return {l.ax, l.ay, u1, u2};
     const double x = s * std::cos(l.phi), y = s * std::sin(l.phi), z = l.cos_theta;
     if (sampler.arguments == "WO_ALPHA_U" || sampler.arguments == "CONIC2026_LOBE_U" ||
-        sampler.arguments == "LOBE_U")
+        sampler.arguments == "LOBE_U" || sampler.arguments == "BECKMANN_LOBE_U")
         return {x, y, z, l.ax, l.ay, u1, u2};
     if (sampler.arguments == "WO_ALPHA1_U") return {x, y, z, l.ax, u1, u2};
     // The frame turned by c = 0.6 about y: z -> n.

@@ -640,7 +640,8 @@ std::map<std::string, Evaluation> evaluations() {
         all[prefix + "eval_pdf"] = [ndf, both](const Reals& in) {
             const Real pdf = pdf_wi(ndf, vec(in, 0), vec(in, 3), in[6], in[7]);
             const Real mask = both(in) ? Real(1 + lambda(ndf, vec(in, 0), in[6], in[7])) : Real(1);
-            const Real weight = both(in) ? Real(mask / (mask + lambda(ndf, vec(in, 3), in[6], in[7]))) : Real(0);
+            const Real weight =
+                both(in) ? Real(mask / (mask + lambda(ndf, vec(in, 3), in[6], in[7]))) : Real(0);
             return Reals{both(in) ? Real(weight * pdf / in[5]) : Real(0), pdf};
         };
         // The marginal in the plane of incidence at alpha = 1.

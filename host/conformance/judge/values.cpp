@@ -129,8 +129,8 @@ double error_at(const Judge& j, std::size_t i) {
         size += exact[k] * exact[k];
         difference += delta * delta;
         if (j.function.kind == Kind::pair)
-            worst = std::fmax(
-                worst, error_of<R>(j, row.data(), exact, R(std::abs(exact[k])), R(std::abs(delta))));
+            worst = std::fmax(worst,
+                              error_of<R>(j, row.data(), exact, R(std::abs(exact[k])), R(std::abs(delta))));
     }
     if (j.function.kind == Kind::pair) return worst;
     return error_of<R>(j, row.data(), exact, R(std::sqrt(size)), R(std::sqrt(difference)));

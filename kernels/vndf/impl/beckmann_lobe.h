@@ -15,10 +15,10 @@ struct vndf_beckmann_lobe {
     VNDF_REAL wo_x, wo_y, wo_z;
     VNDF_REAL alpha_x, alpha_y, rcp_x, rcp_y;  // clamped, and 1 over them
     VNDF_REAL ex, ey;                          // the azimuth of the stretched wo, (1, 0) if it has none
-    VNDF_REAL l;
-    VNDF_REAL beyond;              // |a| over what the slopes limit it to, at least 1
-    struct vndf_impl_pair square;  // a^2, in twice the precision
-    int sees;                      // anything: not so at wo = -z
+    VNDF_REAL l, rcp_l;                        // and nearly 1 / l, or 0
+    VNDF_REAL beyond;                          // |a| over what the slopes limit it to, at least 1
+    struct vndf_impl_pair square;              // a^2, in twice the precision
+    int sees;                                  // anything: not so at wo = -z
     struct vndf_impl_incidence_slopes slopes;
 };
 
@@ -59,6 +59,7 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.ey = tilted ? y * rcp : VNDF_R(0.0);
     VNDF_REAL low = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
+    lobe.rcp_l = tilted ? up * rcp : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
     VNDF_REAL steep = vndf_impl_min(vndf_impl_abs(wo.z) * up * rcp, VNDF_IMPL_STEEP_LIMIT);
     lobe.beyond = vndf_impl_max(steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
@@ -87,10 +88,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_beckmann_l
 
 // --- Terms ---
 
-// h in front, A behind the surface, but not so little that a product of it is subnormal: it is beside |a| in front, and the
-// exponential is 0 behind.
+// h in front of the surface, less what the rounding of a makes of it, h' = -erfc(a) / 2; but not so little that a product of
+// it is subnormal: it is beside a.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_hidden(struct vndf_beckmann_lobe lobe) {
-    return vndf_impl_max(lobe.slopes.hidden, VNDF_EPSILON * VNDF_EPSILON);
+    struct vndf_impl_incidence_slopes i = lobe.slopes;
+    VNDF_REAL rest = VNDF_FMA(-i.a, lobe.l, lobe.wo_z) * lobe.rcp_l,
+              hidden = VNDF_FMA(VNDF_R(-0.5) * i.erfcx * i.gaussian, rest, i.hidden);
+    return vndf_impl_max(hidden, VNDF_EPSILON * VNDF_EPSILON);
 }
 
 // The projected area that wo sees from in front of the surface.
@@ -173,8 +177,8 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_visible(struct vndf_beckmann_l
     struct vndf_impl_power least =
         vndf_impl_split(area.part > VNDF_R(0.0) ? lobe.slopes.hidden : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
-    VNDF_REAL seen = weight / area.part,
-              share = front ? seen : seen / least.part * (lobe.beyond * lobe.beyond);
+    // Where the slopes limit |a|, the density is 0: the cosine of two vectors of numbers is not that small.
+    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
     scale.part = VNDF_1_PI * share * (up.part * lobe.rcp_x) * (up.part * lobe.rcp_y);
     scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
     scale.part = front || level ? scale.part : VNDF_R(0.0);
