@@ -45,10 +45,12 @@ struct vndf_bsdf {
     struct vndf_rgb albedo;
 #endif
 #if VNDF_CONDUCTOR && VNDF_LAMBERT
-    VNDF_REAL metal;  // the share of the conductor, and the probability that it is sampled; the rest is Lambert's
+    VNDF_REAL
+        metal;  // the share of the conductor, and the probability that it is sampled; the rest is Lambert's
 #endif
 #if VNDF_SHADING_NORMAL
-    VNDF_REAL ng_x, ng_y, ng_z;  // the geometric normal, a unit vector in the local frame; (0, 0, 1): no other than the shading one
+    VNDF_REAL ng_x, ng_y,
+        ng_z;  // the geometric normal, a unit vector in the local frame; (0, 0, 1): no other than the shading one
 #endif
 };
 
@@ -74,12 +76,14 @@ struct vndf_bsdf_direction {
 
 // What turns z to the side of wo: -1 behind a surface with two sides, 1 otherwise.
 VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
-#if VNDF_BACK_FACING && VNDF_SHADING_NORMAL
-    VNDF_REAL height = VNDF_FMA(wo.x, b.ng_x, VNDF_FMA(wo.y, b.ng_y, wo.z * b.ng_z));
-    return height < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0);
-#elif VNDF_BACK_FACING
+#if VNDF_BACK_FACING
+#if VNDF_SHADING_NORMAL
+    int behind = VNDF_FMA(wo.x, b.ng_x, VNDF_FMA(wo.y, b.ng_y, wo.z * b.ng_z)) < VNDF_R(0.0);
+#else
+    int behind = wo.z < VNDF_R(0.0);
+#endif
     (void)b;
-    return wo.z < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0);
+    return behind ? VNDF_R(-1.0) : VNDF_R(1.0);
 #else
     (void)wo;
     (void)b;
@@ -141,9 +145,9 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL
                                       vndf_fresnel_schlick(cosine, b.f0.g, b.f90),
                                       vndf_fresnel_schlick(cosine, b.f0.b, b.f90));
 #elif VNDF_IS(FRESNEL, f82)
-    struct vndf_rgb f = vndf_impl_rgb(vndf_fresnel_f82(cosine, b.f0.r, b.f82.r),
-                                      vndf_fresnel_f82(cosine, b.f0.g, b.f82.g),
-                                      vndf_fresnel_f82(cosine, b.f0.b, b.f82.b));
+    struct vndf_rgb f =
+        vndf_impl_rgb(vndf_fresnel_f82(cosine, b.f0.r, b.f82.r), vndf_fresnel_f82(cosine, b.f0.g, b.f82.g),
+                      vndf_fresnel_f82(cosine, b.f0.b, b.f82.b));
 #else
     (void)cosine;
     struct vndf_rgb f = vndf_impl_rgb(VNDF_R(1.0), VNDF_R(1.0), VNDF_R(1.0));

@@ -2,7 +2,7 @@
 #ifndef VNDF_FRESNEL_CONDUCTOR_H
 #define VNDF_FRESNEL_CONDUCTOR_H
 
-#include "impl/range.h"
+#include "impl/fresnel.h"
 
 VNDF_BEGIN
 
@@ -17,7 +17,7 @@ VNDF_BEGIN
 // Accuracy: 2 eps (1 + condition number); double 2.
 //     a - c is formed without cancellation, so that a reflectance near 0 (eta near 1, small k) keeps its digits.
 VNDF_FN VNDF_REAL vndf_fresnel_conductor(VNDF_REAL cos_theta, VNDF_REAL eta, VNDF_REAL k) {
-    VNDF_REAL c = vndf_impl_share(vndf_impl_max(cos_theta, VNDF_R(0.0))), rest = VNDF_R(1.0) - c;
+    VNDF_REAL c = vndf_impl_fresnel_cosine(cos_theta), rest = VNDF_R(1.0) - c;
     VNDF_REAL n = vndf_impl_min(vndf_impl_max(eta, VNDF_R(1e-3)), VNDF_R(1e3));
     VNDF_REAL most = k < VNDF_R(1e3) ? k : VNDF_R(1e3), absorbed = most > VNDF_R(1e-8) ? most : VNDF_R(0.0);
     VNDF_REAL s = rest * (VNDF_R(1.0) + c), contrast = (n - VNDF_R(1.0)) * (n + VNDF_R(1.0));
@@ -30,7 +30,8 @@ VNDF_FN VNDF_REAL vndf_fresnel_conductor(VNDF_REAL cos_theta, VNDF_REAL eta, VND
     int clear = difference > VNDF_R(0.0);
     VNDF_REAL a = clear ? larger : smaller, b = clear ? smaller : larger, b2 = b * b;
     // a - c = (a^2 - c^2) / (a + c). At grazing incidence on a = 0 both are 0.
-    VNDF_REAL together = a + c, apart = (contrast - k2 + b2) / (together > VNDF_R(0.0) ? together : VNDF_R(1.0));
+    VNDF_REAL together = a + c,
+              apart = (contrast - k2 + b2) / (together > VNDF_R(0.0) ? together : VNDF_R(1.0));
     VNDF_REAL rs = VNDF_FMA(apart, apart, b2) / VNDF_FMA(together, together, b2);
     VNDF_REAL ac = a * c, bc = b * c, bc2 = bc * bc, less = ac - s, more = ac + s;
     VNDF_REAL whole = VNDF_FMA(more, more, bc2);

@@ -2,7 +2,7 @@
 #ifndef VNDF_FRESNEL_F82_H
 #define VNDF_FRESNEL_F82_H
 
-#include "fresnel_schlick.h"
+#include "impl/fresnel.h"
 
 VNDF_BEGIN
 
@@ -15,8 +15,8 @@ VNDF_BEGIN
 // return: in [0, 1]; 0 where the difference is negative, which it is for a black tint on a dark f0.
 // Accuracy: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL vndf_fresnel_f82(VNDF_REAL cos_theta, VNDF_REAL f0, VNDF_REAL tint) {
-    VNDF_REAL cosine = vndf_impl_share(vndf_impl_max(cos_theta, VNDF_R(0.0))), low = vndf_impl_reflectance(f0);
-    VNDF_REAL rise = vndf_impl_schlick_rise(cosine), high = VNDF_R(1.0) - low;
+    VNDF_REAL cosine = vndf_impl_fresnel_cosine(cos_theta), low = vndf_impl_reflectance(f0);
+    VNDF_REAL rise = vndf_impl_fresnel_rise(cosine), high = VNDF_R(1.0) - low;
     // s(1/7) = f0 + (1 - f0) (6/7)^5, over 1/7 (6/7)^6: 7 (7/6)^6 and 7 (7/6).
     VNDF_REAL b = (VNDF_R(1.0) - vndf_impl_reflectance(tint)) *
                   VNDF_FMA(VNDF_R(17.651384602194787380), low, VNDF_R(8.1666666666666666667) * high);
