@@ -78,18 +78,23 @@ struct vndf_bsdf_direction {
 VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
 #if VNDF_BACK_FACING
 #if VNDF_SHADING_NORMAL
-    int behind = VNDF_FMA(wo.x, b.ng_x, VNDF_FMA(wo.y, b.ng_y, wo.z * b.ng_z)) < VNDF_R(0.0);
+    int backwards = VNDF_FMA(wo.x, b.ng_x, VNDF_FMA(wo.y, b.ng_y, wo.z * b.ng_z)) < VNDF_R(0.0);
 #else
-    int behind = wo.z < VNDF_R(0.0);
+    int backwards = wo.z < VNDF_R(0.0);
 #endif
     (void)b;
-    return behind ? VNDF_R(-1.0) : VNDF_R(1.0);
+    return backwards ? VNDF_R(-1.0) : VNDF_R(1.0);
 #else
     (void)wo;
     (void)b;
     return VNDF_R(1.0);
 #endif
 }
+
+// A conductor with one normal has the weight 0 below its horizon by itself.
+#define VNDF_IMPL_SIDES (VNDF_LAMBERT || VNDF_SHADING_NORMAL)
+
+#if VNDF_IMPL_SIDES
 
 // The part of the light that passes between wo and wi, both turned by `side`: 0 where the rule above forbids it.
 // Source of the part near the geometric horizon: Chiang, Li & Burley, Taming the Shadow Terminator, 2019: G + G^2 - G^3,
@@ -116,6 +121,8 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vn
 #endif
     return above ? VNDF_R(1.0) : VNDF_R(0.0);
 }
+
+#endif
 
 // --- The conductor's share of a material ---
 
@@ -213,7 +220,10 @@ VNDF_FN struct vndf_bsdf_value vndf_bsdf_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, 
     struct vndf_rgb weight = bsdf.albedo;
     value.pdf = vndf_lambert_pdf_wi(i);
 #endif
-    value.f = vndf_impl_rgb_scaled(weight, value.pdf * vndf_impl_bsdf_passing(o, i, bsdf, side));
+#if VNDF_IMPL_SIDES
+    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, i, bsdf, side));
+#endif
+    value.f = vndf_impl_rgb_scaled(weight, value.pdf);
     return value;
 }
 
@@ -273,13 +283,18 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
     VNDF_REAL3 i = VNDF_MAKE3(s.x, s.y, s.z);
     struct vndf_rgb weight = bsdf.albedo;
 #endif
-    d.weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, i, bsdf, side));
+#if VNDF_IMPL_SIDES
+    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, i, bsdf, side));
+#endif
+    d.weight = weight;
     d.pdf = s.pdf;
     d.wi_x = s.x;
     d.wi_y = s.y;
     d.wi_z = side * s.z;
     return d;
 }
+
+#undef VNDF_IMPL_SIDES
 
 VNDF_END
 

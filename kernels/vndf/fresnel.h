@@ -5,7 +5,8 @@
 #include "effects.h"
 #include "impl/shim.h"
 
-#if VNDF_IS(FRESNEL, conductor)
+#if !VNDF_CONDUCTOR
+#elif VNDF_IS(FRESNEL, conductor)
 #include "fresnel_conductor.h"
 #elif VNDF_IS(FRESNEL, schlick)
 #include "fresnel_schlick.h"
