@@ -119,13 +119,12 @@ class MaterialView {
         const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
         const R mirror =
             model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
-        const R cosine = dot(wo_, h), step = R(1e-6);
+        const R cosine = dot(wo_, h);
         for (int c = 0; c < 3; ++c) {
             const R scale = passing * p_.metal * p_.tint[c] * mirror;
-            const R rising = reflectance(c, cosine * (1 + step)) - reflectance(c, cosine * (1 - step));
             value.f[c] =
                 scale * reflectance(c, cosine) + passing * (1 - p_.metal) * p_.albedo[c] * wi.z / pi<R>();
-            value.slope[c] = scale * std::abs(rising) / (2 * step) + value.f[c] / height_i;
+            value.slope[c] = scale * reflectance_slope(c, cosine) + value.f[c] / height_i;
         }
         return value;
     }
@@ -140,17 +139,33 @@ class MaterialView {
         return std::abs(margin.inside) > 64 * unit * margin.per_unit;
     }
     R reflectance(int c, const R& cosine) const {
+        return reflectance(cosine, p_.first[c],
+                           p_.second[model_.fresnel == MaterialModel::Fresnel::schlick ? 0 : c]);
+    }
+    R reflectance(const R& cosine, const R& first, const R& second) const {
         switch (model_.fresnel) {
             case MaterialModel::Fresnel::none:
                 return 1;
             case MaterialModel::Fresnel::conductor:
-                return fresnel_conductor<R>(cosine, p_.first[c], p_.second[c]);
+                return fresnel_conductor<R>(cosine, first, second);
             case MaterialModel::Fresnel::schlick:
-                return fresnel_schlick<R>(cosine, p_.first[c], p_.second[0]);
+                return fresnel_schlick<R>(cosine, first, second);
             case MaterialModel::Fresnel::f82:
-                return fresnel_f82<R>(cosine, p_.first[c], p_.second[c]);
+                return fresnel_f82<R>(cosine, first, second);
         }
         return 0;
+    }
+    // The sum of |x dF / dx| over its arguments, by differences.
+    R reflectance_slope(int c, const R& cosine) const {
+        const R step = R(1e-6), x[3] = {cosine, p_.first[c],
+                                        p_.second[model_.fresnel == MaterialModel::Fresnel::schlick ? 0 : c]};
+        R sum = 0;
+        for (int k = 0; k < 3; ++k) {
+            R low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
+            low[k] *= 1 - step, high[k] *= 1 + step;
+            sum += std::abs(reflectance(high[0], high[1], high[2]) - reflectance(low[0], low[1], low[2]));
+        }
+        return sum / (2 * step);
     }
     // D G2 / (4 cos(theta_o))
     template <class N>

@@ -46,7 +46,7 @@ struct vndf_bsdf {
 #endif
 #if VNDF_CONDUCTOR && VNDF_LAMBERT
     VNDF_REAL
-        metal;  // the share of the conductor, and the probability that it is sampled; the rest is Lambert's
+    metal;  // the share of the conductor, and the probability that it is sampled; the rest is Lambert's
 #endif
 #if VNDF_SHADING_NORMAL
     VNDF_REAL ng_x, ng_y,
@@ -183,8 +183,12 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, stru
 // to the bit.
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_bsdf b, struct vndf_rgb weight, VNDF_REAL metal,
                                              VNDF_REAL conductor_pdf, VNDF_REAL lambert_pdf) {
-    VNDF_REAL other = (VNDF_R(1.0) - metal) * lambert_pdf, sum = VNDF_FMA(metal, conductor_pdf, other);
-    VNDF_REAL share = other / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)), rest = VNDF_R(1.0) - share;
+    VNDF_REAL own = metal * conductor_pdf, other = (VNDF_R(1.0) - metal) * lambert_pdf, sum = own + other;
+    // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1.
+    int less = other < own;
+    VNDF_REAL small = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
+              large = VNDF_R(1.0) - small;
+    VNDF_REAL share = less ? small : large, rest = less ? large : small;
     return vndf_impl_rgb(VNDF_FMA(share, b.albedo.r, rest * weight.r),
                          VNDF_FMA(share, b.albedo.g, rest * weight.g),
                          VNDF_FMA(share, b.albedo.b, rest * weight.b));

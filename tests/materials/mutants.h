@@ -9,7 +9,7 @@
  "VNDF_FMA(g, VNDF_R(1.0), VNDF_R(1.0))", "SAMPLING=bounded", {"value"}},
 {"a mix whose conductor counts in full", "kernels/vndf/bsdf.h", "VNDF_FMA(share, b.albedo.r, rest * weight.r)",
  "VNDF_FMA(share, b.albedo.r, weight.r)", "SAMPLING=bounded", {"value", "furnace"}},
-{"the lobes exchanged when one is drawn", "kernels/vndf/bsdf.h", "u_lobe < metal", "u_lobe > metal",
+{"the lobes exchanged when one is drawn", "kernels/vndf/bsdf.h", "int conductor = u_lobe < metal", "int conductor = u_lobe > metal",
  "SAMPLING=bounded", {"chi2 of the directions", "mean weight"}},
 {"the conductor's density of a direction that it did not draw", "kernels/vndf/bsdf.h",
  "conductor ? mirrored.pdf : conductor_pdf", "mirrored.pdf", "SAMPLING=bounded", {"densities agree"}},

@@ -1,12 +1,19 @@
 // A material of kernels/vndf/bsdf.h on the default device, with switches: tables in, tables out.
 #pragma once
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "runtime/program.h"
 
 namespace vndf {
+
+// How many inputs the tests that are run by hand take: the environment's CLVNDF_ITEMS, or as many as are claimed.
+inline std::size_t items_by_hand() {
+    const char* text = std::getenv("CLVNDF_ITEMS");
+    return text ? std::strtoul(text, nullptr, 10) : std::size_t{1} << 20;
+}
 
 using Columns = std::vector<std::vector<float>>;
 
