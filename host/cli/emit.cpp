@@ -1,4 +1,5 @@
 // clvndf emit
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "emit/emit.h"
+#include "effects.h"
 #include "error.h"
 
 namespace vndf::cli {
@@ -16,7 +18,7 @@ namespace {
 
 struct Emit {
     std::vector<std::string> names;
-    std::string output = "-", as = "opencl", math = "strict", real = "float", prefix = "vndf_";
+    std::string effects, output = "-", as = "opencl", math = "strict", real = "float", prefix = "vndf_";
     bool selftest = false;
 };
 
@@ -44,6 +46,14 @@ emit::Options options_of(const Emit& e) {
     emit::require_prefix(e.prefix);
     options.prefix = e.prefix;
     options.selftest = e.selftest;
+    const auto material = std::find_if(options.functions.begin(), options.functions.end(), emit::is_bsdf);
+    if (material == options.functions.end() && !e.effects.empty())
+        throw InputError(fmt::format(
+            "--effects {}: no function of a material (vndf_bsdf_sample, ...) is named", e.effects));
+    if (material != options.functions.end() && e.selftest)
+        throw InputError(fmt::format("--selftest: there are no known answers of {}", *material));
+    if (material != options.functions.end())
+        options.effects = parse_effects(e.effects.empty() ? "all" : e.effects).macros();
     options.stamp =
         fmt::format("Made by clvndf {}: clvndf emit {}", CLVNDF_VERSION, fmt::join(options.functions, " "));
     for (const auto& [option, value, usual] : {std::array{"--as", e.as.c_str(), "opencl"},
@@ -51,6 +61,7 @@ emit::Options options_of(const Emit& e) {
                                                {"--real", e.real.c_str(), "float"},
                                                {"--prefix", e.prefix.c_str(), "vndf_"}})
         if (std::string_view(value) != usual) options.stamp += fmt::format(" {} {}", option, value);
+    if (!e.effects.empty()) options.stamp += " --effects " + e.effects;
     if (e.selftest) options.stamp += " --selftest";
     return options;
 }
@@ -80,6 +91,8 @@ void add_emit(CLI::App& app, Common& common) {
         ->capture_default_str();
     add_switches(*command, e->math, e->real);
     command->add_option("--prefix", e->prefix, "what every name begins with")->capture_default_str();
+    command->add_option("--effects", e->effects,
+                        "of a material: all (default), or effects and choices: conductor,tint,fresnel=f82");
     command->add_flag("--selftest", e->selftest, "with a kernel of known answers that counts wrong results");
     command->callback([e, &common] { common.action = [e] { run(*e); }; });
 }

@@ -50,6 +50,16 @@ void print_json() {
                        {"signature", lobe.signature},
                        {"type", lobe.type},
                        {"source", lobe.source}});
+    for (const BsdfFunction& bsdf : bsdf_functions())
+        all.push_back(
+            {{"name", bsdf.name},
+             {"ndf", to_string(Ndf::any)},
+             {"kind", "material"},
+             {"signature", bsdf.signature},
+             {"source", bsdf.source},
+             {"unit", to_string(Unit::plain)},
+             {"bounds",
+              {{"float", {{"error", bsdf.float_bound}}}, {"double", {{"error", bsdf.double_bound}}}}}});
     put("{}\n", all.dump(2));
 }
 

@@ -19,6 +19,7 @@ std::vector<std::string> all_names() {
     std::vector<std::string> names;
     for (const Function& function : functions()) names.push_back(function.name);
     for (const LobeFunction& lobe : lobe_functions()) names.push_back(lobe.name);
+    for (const BsdfFunction& bsdf : bsdf_functions()) names.push_back(bsdf.name);
     return names;
 }
 
@@ -36,6 +37,7 @@ std::string renamed(const std::string& text, const std::string& prefix) {
 std::vector<std::string> macros(const Options& options) {
     std::vector<std::string> all = {fmt::format("VNDF_REAL={}", to_string(options.real)),
                                     fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN"};
+    all.insert(all.end(), options.effects.begin(), options.effects.end());
     switch (options.language) {
         case Language::opencl:
         case Language::string:
@@ -132,6 +134,11 @@ std::string as_string(const std::string& source, const Options& options) {
 
 }  // namespace
 
+bool is_bsdf(const std::string& name) {
+    return std::any_of(bsdf_functions().begin(), bsdf_functions().end(),
+                       [&](const BsdfFunction& bsdf) { return bsdf.name == name; });
+}
+
 std::string resolve(const std::string& name) {
     const std::vector<std::string> all = all_names();
     for (const std::string& full : all)
@@ -167,7 +174,10 @@ void require_prefix(const std::string& prefix) {
 }
 
 std::string emit(const Options& options) {
-    const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
+    std::string source = runtime::assemble("kernels/vndf/vndf.h");
+    if (std::any_of(options.functions.begin(), options.functions.end(), is_bsdf))
+        source += runtime::assemble("kernels/vndf/bsdf.h");
+    const std::vector<Token> tokens = preprocess(source, macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
     const std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);

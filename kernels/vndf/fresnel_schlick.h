@@ -15,9 +15,11 @@ VNDF_BEGIN
 // Accuracy: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL vndf_fresnel_schlick(VNDF_REAL cos_theta, VNDF_REAL f0, VNDF_REAL f90) {
     VNDF_REAL low = vndf_impl_reflectance(f0), high = vndf_impl_reflectance(f90);
-    VNDF_REAL rise = vndf_impl_fresnel_rise(vndf_impl_fresnel_cosine(cos_theta));
-    // A sum of positive parts: no difference to cancel for f90 < f0. 1 for f0 = f90 = 1, to the bit.
-    return VNDF_FMA(rise, high, (VNDF_R(1.0) - rise) * low);
+    VNDF_REAL c = vndf_impl_fresnel_cosine(cos_theta), d = VNDF_R(1.0) - c;
+    // 1 - d^5 = c (1 + d + d^2 + d^3 + d^4): nothing cancels, whichever of f0 and f90 is larger.
+    VNDF_REAL sum =
+        VNDF_FMA(d, VNDF_FMA(d, VNDF_FMA(d, VNDF_R(1.0) + d, VNDF_R(1.0)), VNDF_R(1.0)), VNDF_R(1.0));
+    return vndf_impl_share(VNDF_FMA(vndf_impl_fresnel_rise(c), high, c * sum * low));
 }
 
 VNDF_END

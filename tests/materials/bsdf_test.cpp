@@ -18,6 +18,7 @@
 #include "splitmix64.h"
 #include "support/bsdf_program.h"
 #include "support/catch.h"
+#include "support/skip.h"
 
 namespace {
 
@@ -107,12 +108,26 @@ Columns columns(const std::vector<Row>& rows, bool sampled) {
             values.insert(values.end(), c.begin(), c.end());
         values.push_back(m.metal);
         append(values, m.ng);
-        for (std::size_t i = 0; i < all.size(); ++i) all[i].push_back(rounded(values[i]));
+        for (std::size_t i = 0; i < all.size(); ++i) all[i].push_back(values[i]);
     }
     return all;
 }
 
-// The row in the numbers that the device gets.
+template <class R>
+reference::Vec3<R> as(const Vector& v) {
+    return {v.x, v.y, v.z};
+}
+template <class R>
+reference::Rgb<R> as(const reference::Rgb<double>& c) {
+    return {c[0], c[1], c[2]};
+}
+template <class R>
+reference::MaterialParameters<R> as(const Parameters& m) {
+    return {m.alpha_x,     m.alpha_y,       as<R>(m.first), as<R>(m.second),
+            as<R>(m.tint), as<R>(m.albedo), m.metal,        as<R>(m.ng)};
+}
+
+// The row in numbers that are exact in float.
 Row rounded(Row row) {
     Parameters& m = row.material;
     row.wo = rounded(row.wo), row.wi = rounded(row.wi), m.ng = rounded(m.ng);
@@ -228,35 +243,45 @@ class Worst {
     Found found_;
 };
 
-double registered(const std::string& function) {
+double registered(const std::string& function, runtime::Real real = runtime::Real::f32) {
     for (const BsdfFunction& f : bsdf_functions())
-        if (f.name == function) return f.float_bound;
+        if (f.name == function) return real == runtime::Real::f32 ? f.float_bound : f.double_bound;
     throw std::logic_error("no bound of " + function);
 }
 
 // Value and density against the reference: errors over what the rounding of the reflectance's cosine, of a height above the
 // geometric horizon and of the exponent can do.
-Findings check_values(const Choice& choice, const BsdfProgram& program, std::size_t count) {
-    Worst value("value", registered("vndf_bsdf_eval")), density("density", registered("vndf_bsdf_pdf"));
+template <class R>
+Findings check_values_as(const Choice& choice, const BsdfProgram& program, std::size_t count) {
+    const runtime::Real real = program.real();
+    const bool is_double = real == runtime::Real::f64;
+    const R eps = is_double ? R(0x1p-53) : R(0x1p-24), infinity = std::numeric_limits<R>::infinity();
+    Worst value("value", registered("vndf_bsdf_eval", real)),
+        density("density", registered("vndf_bsdf_pdf", real));
     const std::vector<Row> rows = ordinary_rows(count, 3);
     const Columns out = program.eval_pdf(columns(rows, false));
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& row = rows[i];
-        const View view(choice.model, row.material, row.wo, reference::Precision::f32);
-        const auto exact = view(row.wi);
+        const reference::MaterialView<R> view(
+            choice.model, as<R>(row.material), as<R>(row.wo),
+            is_double ? reference::Precision::f64 : reference::Precision::f32);
+        const auto exact = view(as<R>(row.wi));
         if (!exact.settled) continue;
-        const double unit = eps * (1 + 2 * exact.exponent);
-        for (int c = 0; c < 3; ++c) {
-            if (exact.f[c] < 0x1p-100) continue;
-            value.add(std::abs(out[c][i] - exact.f[c]) / (unit * (exact.f[c] + exact.slope[c])), row);
-        }
-        if (exact.pdf > 0x1p-100) density.add(std::abs(out[3][i] - exact.pdf) / (unit * exact.pdf), row);
-        if (exact.pdf == 0) density.add(out[3][i] > 0 ? std::numeric_limits<double>::infinity() : 0, row);
-        if (exact.f[0] + exact.f[1] + exact.f[2] == 0)
-            value.add(out[0][i] + out[1][i] + out[2][i] > 0 ? std::numeric_limits<double>::infinity() : 0,
-                      row);
+        const R unit = eps * (1 + 2 * exact.exponent);
+        const auto judge = [&](Worst& worst, double got, R right, R slope) {
+            if (right > R(0x1p-100))
+                worst.add(static_cast<double>(std::abs(got - right) / (unit * (right + slope))), row);
+            else if (right == 0)
+                worst.add(static_cast<double>(got > 0 ? infinity : R(0)), row);
+        };
+        for (int c = 0; c < 3; ++c) judge(value, out[c][i], exact.f[c], exact.slope[c]);
+        judge(density, out[3][i], exact.pdf, R(0));
     }
     return {value, density};
+}
+Findings check_values(const Choice& choice, const BsdfProgram& program, std::size_t count) {
+    return program.real() == runtime::Real::f32 ? check_values_as<double>(choice, program, count)
+                                                : check_values_as<long double>(choice, program, count);
 }
 
 // The weight of a sample is value over density where it points; its density is the separate one where rounding the
@@ -298,7 +323,7 @@ Findings check_hard(const BsdfProgram& program, std::size_t count) {
     const std::vector<Row> rows = hard_rows(count, 6);
     const Columns values = program.eval_pdf(columns(rows, false)),
                   samples = program.sample(columns(rows, true));
-    const auto bad = [](float x) { return !std::isfinite(x) || x < 0; };
+    const auto bad = [](double x) { return !std::isfinite(x) || x < 0; };
     for (std::size_t i = 0; i < rows.size(); ++i) {
         for (const auto& column : values) finite.add(bad(column[i]), rows[i]);
         for (std::size_t c = 3; c < 7; ++c) finite.add(bad(samples[c][i]), rows[i]);
@@ -475,6 +500,13 @@ TEST_CASE("materials are what they are said to be") {
         expect_passed(choice, check_all(choice, BsdfProgram(choice.switches), 1 << 14, lobes(), 1 << 15));
 }
 
+TEST_CASE("materials in double are what they are said to be") {
+    if (!runtime::choose_device().device.fp64) VNDF_SKIP("the device has no double");
+    for (const Choice& choice : {some_choices()[0], some_choices()[3]})
+        expect_passed(choice,
+                      check_values(choice, BsdfProgram(choice.switches, {}, 0, runtime::Real::f64), 1 << 12));
+}
+
 TEST_CASE("every seeded mistake in a material is noticed") {
     std::vector<runtime::Substitution> all;
     for (const Mistake& m : mistakes())
@@ -504,5 +536,10 @@ TEST_CASE("materials of every choice are what they are said to be", "[.bsdf-full
             fmt::print(" {} {:.3g} of {:.3g};", found.check, found.figure, found.limit);
         fmt::print("\n");
         expect_passed(choice, findings);
+        const Findings doubles = check_values(choice, BsdfProgram(choice.switches, {}, 0, runtime::Real::f64),
+                                              items_by_hand() / 8);
+        for (const Found& found : doubles) fmt::print("  double: {} {:.3g};", found.check, found.figure);
+        fmt::print("\n");
+        expect_passed(choice, doubles);
     }
 }

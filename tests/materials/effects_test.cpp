@@ -77,7 +77,7 @@ class Inputs {
     static void put(Columns& to, const std::vector<double>& first, const std::vector<double>& material) {
         std::size_t column = 0;
         for (const auto* values : {&first, &material})
-            for (const double x : *values) to[column++].push_back(static_cast<float>(x));
+            for (const double x : *values) to[column++].push_back(x);
     }
 
     const Off& off_;
@@ -85,12 +85,12 @@ class Inputs {
     Columns evaluated_, sampled_;
 };
 
-// The rows whose bits differ; a zero of either sign is the same.
+// The rows whose bits differ.
 std::size_t different(const Columns& a, const Columns& b) {
     std::size_t rows = 0;
     for (std::size_t i = 0; i < a.front().size(); ++i)
         for (std::size_t c = 0; c < a.size(); ++c)
-            if (std::bit_cast<std::uint32_t>(a[c][i]) != std::bit_cast<std::uint32_t>(b[c][i])) {
+            if (std::bit_cast<std::uint64_t>(a[c][i]) != std::bit_cast<std::uint64_t>(b[c][i])) {
                 ++rows;
                 break;
             }

@@ -15,7 +15,7 @@ inline std::size_t items_by_hand() {
     return text ? std::strtoul(text, nullptr, 10) : std::size_t{1} << 20;
 }
 
-using Columns = std::vector<std::vector<float>>;
+using Columns = std::vector<std::vector<double>>;
 
 // The inputs' names, in the order of kernels/batch/bsdf.cl.
 inline const std::vector<std::string> bsdf_parameters{
@@ -26,9 +26,10 @@ class BsdfProgram {
   public:
     // switches: "NDF=beckmann LAMBERT=0".
     explicit BsdfProgram(const std::string& switches, const std::vector<runtime::Substitution>& mutants = {},
-                         int mutant = 0)
-        : program_(runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32,
+                         int mutant = 0, runtime::Real real = runtime::Real::f32)
+        : program_(runtime::choose_device().device, runtime::Math::strict, real,
                    options(switches, mutants, mutant)) {}
+    runtime::Real real() const { return program_.real(); }
 
     // wo, wi, the material -> f (3), pdf
     Columns eval_pdf(const Columns& in) const { return run("vndf_batch_bsdf_eval_pdf", in, 4); }
@@ -55,25 +56,32 @@ class BsdfProgram {
     }
 
     Columns run(const char* name, const Columns& in, std::size_t outputs) const {
-        const std::size_t items = in.front().size(), padded = runtime::whole_groups(items);
-        Columns out(outputs, std::vector<float>(items));
+        return real() == runtime::Real::f32 ? run_as<float>(name, in, outputs)
+                                            : run_as<double>(name, in, outputs);
+    }
+    template <class T>
+    Columns run_as(const char* name, const Columns& in, std::size_t outputs) const {
+        const std::size_t items = in.front().size(), bytes = runtime::whole_groups(items) * sizeof(T);
+        Columns out;
         program_.guarded(std::string("run ") + name, [&] {
             cl::Kernel kernel = program_.kernel(name);
             std::vector<cl::Buffer> buffers;
             for (std::size_t i = 0; i < in.size() + outputs; ++i) {
-                cl::Buffer& buffer = buffers.emplace_back(program_.buffer(padded * sizeof(float)));
+                cl::Buffer& buffer = buffers.emplace_back(program_.buffer(bytes));
                 if (i < in.size()) {
-                    std::vector<float> column = in[i];
-                    column.resize(padded, column.front());
-                    program_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, padded * sizeof(float),
-                                                        column.data());
+                    std::vector<T> column(in[i].begin(), in[i].end());
+                    column.resize(runtime::whole_groups(items), column.front());
+                    program_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, column.data());
                 }
                 kernel.setArg(static_cast<cl_uint>(i), buffer);
             }
             program_.launch(kernel, items);
-            for (std::size_t i = 0; i < outputs; ++i)
-                program_.queue().enqueueReadBuffer(buffers[in.size() + i], CL_TRUE, 0, items * sizeof(float),
-                                                   out[i].data());
+            std::vector<T> column(items);
+            for (std::size_t i = 0; i < outputs; ++i) {
+                program_.queue().enqueueReadBuffer(buffers[in.size() + i], CL_TRUE, 0, items * sizeof(T),
+                                                   column.data());
+                out.emplace_back(column.begin(), column.end());
+            }
         });
         return out;
     }
