@@ -154,7 +154,8 @@ class Draw : public SplitMix64 {
 };
 
 // Materials and directions as scenes have them, wi often near the mirror image of wo.
-std::vector<Row> ordinary_rows(std::size_t count, std::uint64_t seed, bool two_normals = true) {
+std::vector<Row> ordinary_rows(std::size_t count, std::uint64_t seed, bool two_normals = true,
+                               bool in_float = true) {
     Draw draw(seed);
     std::vector<Row> rows;
     while (rows.size() < count) {
@@ -175,7 +176,7 @@ std::vector<Row> ordinary_rows(std::size_t count, std::uint64_t seed, bool two_n
         const double side = row.wo.z < 0 ? -1 : 1;
         const Vector h = reference::normalised<double>({tan * std::cos(phi), tan * std::sin(phi), side});
         row.wi = draw.chance(.3) ? draw.anywhere(two_normals ? -1 : .02) : reference::reflect(row.wo, h);
-        rows.push_back(rounded(row));
+        rows.push_back(in_float ? rounded(row) : row);
     }
     return rows;
 }
@@ -258,7 +259,7 @@ Findings check_values_as(const Choice& choice, const BsdfProgram& program, std::
     const R eps = is_double ? R(0x1p-53) : R(0x1p-24), infinity = std::numeric_limits<R>::infinity();
     Worst value("value", registered("vndf_bsdf_eval", real)),
         density("density", registered("vndf_bsdf_pdf", real));
-    const std::vector<Row> rows = ordinary_rows(count, 3);
+    const std::vector<Row> rows = ordinary_rows(count, 3, true, !is_double);
     const Columns out = program.eval_pdf(columns(rows, false));
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& row = rows[i];
