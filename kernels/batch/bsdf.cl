@@ -73,8 +73,10 @@
     VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT \
         VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_NG
 
-// The item of a work-item; bench goes through few groups of them again and again.
-#ifndef VNDF_BSDF_ITEM
+// The item of a work-item; bench goes through few groups of them again and again, which stay in cache.
+#ifdef VNDF_BSDF_GROUPS
+#define VNDF_BSDF_ITEM ((get_group_id(0) % VNDF_BSDF_GROUPS) * get_local_size(0) + get_local_id(0))
+#else
 #define VNDF_BSDF_ITEM get_global_id(0)
 #endif
 

@@ -83,7 +83,7 @@ TEST_CASE("every command runs to its end with every option") {
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
         lines.insert(lines.end(),
-                     {"bench --help",
+                     {"bench --help", "bench --effects --repetitions 3 --device \"$device\"",
                       "bench --only vndf_reflect/cpp --repetitions 3 --device \"$device\" --json bench.json "
                       "--report report",
                       // Its own results, and the committed ones.
