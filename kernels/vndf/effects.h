@@ -12,10 +12,10 @@
 // An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
 // not call for it have the same bits:
 //
-// For every renderer, by what its scene holds:
+// For every renderer, by what its scene holds (bench/effects.py counts what each costs):
 //   VNDF_CONDUCTOR       the rough conductor; 0: every material is Lambert's
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1
-//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material
+//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument; the code hardly changes
 //   VNDF_TINT            a factor on the conductor; 0: every tint is 1
 //   VNDF_BACK_FACING     surfaces with two sides; 0: none is seen from behind, or those are black
 // For renderers whose normals are interpolated or mapped:
