@@ -29,8 +29,9 @@ R fresnel_conductor(const R& cos_theta, const R& eta, const R& k) {
 template <class R>
 R fresnel_schlick(const R& cos_theta, const R& f0, const R& f90) {
     const R c = within<R>(cos_theta, 0, 1), low = within<R>(f0, 0, 1), high = within<R>(f90, 0, 1);
-    const R rise = std::pow(1 - c, R(5));
-    return low * (1 - rise) + high * rise;
+    // 1 - (1 - c)^5, which keeps its digits for small c.
+    const R fall = -std::expm1(5 * std::log1p(-c));
+    return low * fall + high * std::pow(1 - c, R(5));
 }
 
 // Schlick's reflectance less the multiple of c (1 - c)^6 that makes it `tint` times itself at c = 1/7.

@@ -10,7 +10,7 @@ VNDF_BEGIN
 // Source: Lambert's cosine law: wi.z / pi.
 // wi: unit vector, local frame.
 // return: per steradian of wi; 0 for wi.z <= 0.
-// Accuracy: 1 eps; double 1.5.
+// Accuracy: 2.5 eps; double 2.5.
 VNDF_FN VNDF_REAL vndf_lambert_pdf_wi(VNDF_REAL3 wi) {
     return VNDF_1_PI * vndf_impl_max(wi.z, VNDF_R(0.0));
 }
@@ -30,7 +30,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_lambert(VNDF_REAL2 u) {
 // Source: Malley's method; Pharr, Jakob & Humphreys, Physically Based Rendering, Appendix A.5.3.
 // u: u.x the azimuth, u.y the squared radius.
 // return: unit vector wi, wi.z > 0, with density vndf_lambert_pdf_wi(wi).
-// Accuracy: 1.5 eps (1 + condition number); double 2.
+// Accuracy: 2.5 eps (1 + condition number); double 2.5.
 VNDF_FN VNDF_REAL3 vndf_lambert_sample_wi(VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_lambert(u));
 }

@@ -14,7 +14,7 @@ VNDF_BEGIN
 // eta, k: real and imaginary part of the index of refraction over the index on wo's side, clamped to [1e-3, 1e3] and
 //     [0, 1e3]; a k below 1e-8 counts as 0: a dielectric.
 // return: in [0, 1].
-// Accuracy: 2 eps (1 + condition number); double 2.
+// Accuracy: 24 eps (1 + condition number); double 24.
 //     a - c is formed without cancellation, so that a reflectance near 0 (eta near 1, small k) keeps its digits.
 VNDF_FN VNDF_REAL vndf_fresnel_conductor(VNDF_REAL cos_theta, VNDF_REAL eta, VNDF_REAL k) {
     VNDF_REAL c = vndf_impl_fresnel_cosine(cos_theta), rest = VNDF_R(1.0) - c;

@@ -15,7 +15,7 @@ VNDF_BEGIN
 // f0: reflectance at normal incidence, clamped to [0, 1].
 // tint: factor at 82 degrees, clamped to [0, 1]; 1: Schlick's reflectance.
 // return: in [0, 1]; 0 where the formula is negative, which it is for a black tint on a dark f0.
-// Accuracy: 5 eps (1 + condition number); double 5.
+// Accuracy: 10 eps (1 + condition number); double 10.
 VNDF_FN VNDF_REAL vndf_fresnel_f82(VNDF_REAL cos_theta, VNDF_REAL f0, VNDF_REAL tint) {
     VNDF_REAL c = vndf_impl_fresnel_cosine(cos_theta), d = VNDF_R(1.0) - c, rise = vndf_impl_fresnel_rise(c);
     VNDF_REAL e = VNDF_FMA(VNDF_R(-7.0), c, VNDF_R(1.0)), cd = c * d;

@@ -12,7 +12,7 @@ VNDF_BEGIN
 // cos_theta: of the angle between wo and the microfacet normal; clamped to [0, 1].
 // f0, f90: reflectances at normal and at grazing incidence, clamped to [0, 1].
 // return: in [0, 1].
-// Accuracy: 1 eps (1 + condition number); double 1.
+// Accuracy: 5 eps (1 + condition number); double 5.
 VNDF_FN VNDF_REAL vndf_fresnel_schlick(VNDF_REAL cos_theta, VNDF_REAL f0, VNDF_REAL f90) {
     VNDF_REAL low = vndf_impl_reflectance(f0), high = vndf_impl_reflectance(f90);
     VNDF_REAL c = vndf_impl_fresnel_cosine(cos_theta), d = VNDF_R(1.0) - c;
