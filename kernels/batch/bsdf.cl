@@ -28,11 +28,11 @@
 // The effects' members, each where it exists.
 #if VNDF_CONDUCTOR
 #define VNDF_BSDF_LOAD_ALPHA_X b.alpha_x = in_alpha_x[i];
-#if VNDF_IS(FRESNEL, conductor)
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
 #define VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_RGB(eta, first) VNDF_BSDF_LOAD_RGB(k, second)
-#elif VNDF_IS(FRESNEL, schlick)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
 #define VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_RGB(f0, first) b.f90 = in_second_r[i];
-#elif VNDF_IS(FRESNEL, f82)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
 #define VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_RGB(f0, first) VNDF_BSDF_LOAD_RGB(f82, second)
 #else
 #define VNDF_BSDF_LOAD_FRESNEL

@@ -142,7 +142,7 @@ VNDF_FN VNDF_REAL vndf_impl_half_cosine(VNDF_REAL3 wo, VNDF_REAL3 wi) {
     return VNDF_R(0.5) * VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));
 }
 
-#if VNDF_IS(FRESNEL, conductor) || VNDF_IS(FRESNEL, f82)
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
 // A parameter of the next channel, made dependent on the last one's reflectance, so that LLVM's SLP pass does not pack the alike
 // formulas (impl/stretch.h); the other choice is never taken.
 VNDF_FN VNDF_REAL vndf_impl_next(VNDF_REAL parameter, VNDF_REAL last) {
@@ -151,15 +151,15 @@ VNDF_FN VNDF_REAL vndf_impl_next(VNDF_REAL parameter, VNDF_REAL last) {
 #endif
 
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL cosine) {
-#if VNDF_IS(FRESNEL, conductor)
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
     VNDF_REAL red = vndf_fresnel_conductor(cosine, b.eta.r, b.k.r);
     VNDF_REAL green = vndf_fresnel_conductor(cosine, vndf_impl_next(b.eta.g, red), b.k.g);
     VNDF_REAL blue = vndf_fresnel_conductor(cosine, vndf_impl_next(b.eta.b, green), b.k.b);
-#elif VNDF_IS(FRESNEL, schlick)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
     VNDF_REAL red = vndf_fresnel_schlick(cosine, b.f0.r, b.f90),
               green = vndf_fresnel_schlick(cosine, b.f0.g, b.f90),
               blue = vndf_fresnel_schlick(cosine, b.f0.b, b.f90);
-#elif VNDF_IS(FRESNEL, f82)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
     VNDF_REAL red = vndf_fresnel_f82(cosine, b.f0.r, b.f82.r);
     VNDF_REAL green = vndf_fresnel_f82(cosine, vndf_impl_next(b.f0.g, red), b.f82.g);
     VNDF_REAL blue = vndf_fresnel_f82(cosine, vndf_impl_next(b.f0.b, green), b.f82.b);
@@ -196,9 +196,9 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_bsdf b, struct vndf_rgb
     // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
     // has left nothing of either density it is the conductor's.
     int less = other <= own;
-    VNDF_REAL small = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
-              large = VNDF_R(1.0) - small;
-    VNDF_REAL share = less ? small : large, rest = less ? large : small;
+    VNDF_REAL lesser = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
+              greater = VNDF_R(1.0) - lesser;
+    VNDF_REAL share = less ? lesser : greater, rest = less ? greater : lesser;
     return vndf_impl_rgb(VNDF_FMA(share, b.albedo.r, rest * weight.r),
                          VNDF_FMA(share, b.albedo.g, rest * weight.g),
                          VNDF_FMA(share, b.albedo.b, rest * weight.b));

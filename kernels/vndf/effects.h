@@ -145,10 +145,10 @@
 #define VNDF_TERMINATOR 1
 #endif
 
-// VNDF_IS(FRESNEL, schlick): whether the choice is that one.
-#define VNDF_IS(choice, value) (VNDF_CAT(VNDF_##choice##_IS_, VNDF_##choice) == VNDF_##choice##_IS_##value)
+// VNDF_CHOSEN(VNDF_FRESNEL, schlick): whether the choice is that one.
+#define VNDF_CHOSEN(choice, value) (VNDF_CAT(choice##_IS_, choice) == choice##_IS_##value)
 
-#if VNDF_IS(NDF, beckmann) && !VNDF_IS(SAMPLING, plain)
+#if VNDF_CHOSEN(VNDF_NDF, beckmann) && !VNDF_CHOSEN(VNDF_SAMPLING, plain)
 #error "clvndf: VNDF_NDF beckmann has VNDF_SAMPLING plain alone"
 #undef VNDF_SAMPLING
 #define VNDF_SAMPLING plain

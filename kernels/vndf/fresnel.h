@@ -6,11 +6,11 @@
 #include "impl/shim.h"
 
 #if !VNDF_CONDUCTOR
-#elif VNDF_IS(FRESNEL, conductor)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, conductor)
 #include "fresnel_conductor.h"
-#elif VNDF_IS(FRESNEL, schlick)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
 #include "fresnel_schlick.h"
-#elif VNDF_IS(FRESNEL, f82)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
 #include "fresnel_f82.h"
 #endif
 
@@ -36,13 +36,13 @@ VNDF_FN struct vndf_rgb vndf_impl_rgb_product(struct vndf_rgb a, struct vndf_rgb
 }
 
 // The parameters: members of struct vndf_bsdf.
-#if VNDF_IS(FRESNEL, conductor)
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
 #define VNDF_IMPL_FRESNEL_MEMBERS struct vndf_rgb eta, k;
-#elif VNDF_IS(FRESNEL, schlick)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
 #define VNDF_IMPL_FRESNEL_MEMBERS \
     struct vndf_rgb f0;           \
     VNDF_REAL f90;
-#elif VNDF_IS(FRESNEL, f82)
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
 #define VNDF_IMPL_FRESNEL_MEMBERS struct vndf_rgb f0, f82;
 #else
 #define VNDF_IMPL_FRESNEL_MEMBERS

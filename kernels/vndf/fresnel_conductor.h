@@ -27,8 +27,8 @@ VNDF_FN VNDF_REAL vndf_fresnel_conductor(VNDF_REAL cos_theta, VNDF_REAL eta, VND
     VNDF_REAL sum = VNDF_SQRT(VNDF_FMA(difference, difference, VNDF_R(4.0) * product * product));
     VNDF_REAL larger = VNDF_SQRT(VNDF_R(0.5) * (sum + size));
     VNDF_REAL smaller = product / (larger > VNDF_R(0.0) ? larger : VNDF_R(1.0));
-    int clear = difference > VNDF_R(0.0);
-    VNDF_REAL a = clear ? larger : smaller, b = clear ? smaller : larger, b2 = b * b;
+    int sees_through = difference > VNDF_R(0.0);
+    VNDF_REAL a = sees_through ? larger : smaller, b = sees_through ? smaller : larger, b2 = b * b;
     // a - c = (a^2 - c^2) / (a + c). At grazing incidence on a = 0 both are 0.
     VNDF_REAL together = a + c,
               apart = (contrast - k2 + b2) / (together > VNDF_R(0.0) ? together : VNDF_R(1.0));

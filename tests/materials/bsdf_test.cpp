@@ -361,7 +361,7 @@ Findings check_reciprocity(const BsdfProgram& program, std::size_t count) {
 // --- Integrals over the sphere: theta and phi in bins of many midpoints ---
 
 struct Grid {
-    static constexpr int theta = 24, phi = 48, fine = 12;
+    static constexpr int theta = 24, phi = 48, fine = 8;
     std::vector<Vector> node;
     std::vector<double> weight;
     std::vector<int> bin;

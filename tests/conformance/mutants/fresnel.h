@@ -7,7 +7,7 @@
  {"pointwise, maximum"}},
     {"a conductor that absorbs nothing where it should reflect in full",
      "fresnel_conductor.h",
-     "VNDF_REAL a = clear ? larger : smaller, b = clear ? smaller : larger",
+     "VNDF_REAL a = sees_through ? larger : smaller, b = sees_through ? smaller : larger",
      "VNDF_REAL a = larger, b = smaller",
      "vndf_fresnel_conductor",
      {"pointwise, maximum"}},
