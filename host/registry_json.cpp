@@ -47,6 +47,16 @@ std::string registry_json() {
                        {"signature", lobe.signature},
                        {"type", lobe.type},
                        {"source", lobe.source}});
+    for (const BsdfFunction& bsdf : bsdf_functions())
+        all.push_back(
+            {{"name", bsdf.name},
+             {"ndf", to_string(Ndf::any)},
+             {"kind", "material"},
+             {"signature", bsdf.signature},
+             {"source", bsdf.source},
+             {"unit", to_string(Unit::plain)},
+             {"bounds",
+              {{"float", {{"error", bsdf.float_bound}}}, {"double", {{"error", bsdf.double_bound}}}}}});
     return all.dump(2);
 }
 

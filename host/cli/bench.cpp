@@ -17,6 +17,7 @@
 
 #include "bench/accuracy.h"
 #include "bench/advice.h"
+#include "bench/effect_costs.h"
 #include "bench/measure.h"
 #include "bench/session.h"
 #include "bench/sources.h"
@@ -38,7 +39,7 @@ using runtime::Real;
 struct Bench {
     std::string device, only, json, report, compare;
     int repetitions = 0;  // 0: what suits the run
-    bool quick = false, advise = false, front = false;
+    bool quick = false, advise = false, front = false, effects = false;
     double error = 0;
     bench::AlphaRange alpha;
 };
@@ -256,6 +257,24 @@ std::vector<std::pair<std::string, std::string>> context(const runtime::Device& 
             {"clvndf_version", CLVNDF_VERSION}};
 }
 
+// What each effect of a material costs, as a table.
+void run_effects(const Bench& options, Common& common) {
+    require_output();
+    const FreshCaches caches;
+    Target target;
+    target.device = options.device;
+    const runtime::Device device = target.choose(common);
+    const Progress progress(common.quiet);
+    const std::vector<bench::EffectCost> costs =
+        bench::effect_costs(device, options.repetitions == 0 ? 15 : options.repetitions,
+                            [&](double done) { progress("building and measuring", done); });
+    progress.clear();
+    put("{:32} {:>10} {:>12} {:>8}\n", "program", "sample ns", "eval_pdf ns", "build s");
+    for (const bench::EffectCost& cost : costs)
+        put("{:32} {:10.2f} {:12.2f} {:8.2f}\n", cost.program, cost.sample_ns, cost.eval_pdf_ns,
+            cost.build_s);
+}
+
 void run_bench(Bench options, Common& common) {
     if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
     const Selection selection = parse_only(options.only);
@@ -349,14 +368,20 @@ void add_bench(CLI::App& app, Common& common) {
             "--alpha", [options](const std::string& text) { options->alpha = parse_alpha(text); },
             "range of roughness that is measured (default 0.001:1)")
         ->type_name("LO:HI");
+    command->add_flag("--effects", options->effects, "what each effect of a material costs, and nothing else")
+        ->excludes(quick)
+        ->excludes(advise);
     command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
     command
         ->add_option("--report", options->report,
                      "make FOLDER/index.html, a page with plots, beside FOLDER/bench.json")
         ->type_name("FOLDER");
     command->add_option("--compare", options->compare, "show times relative to those of this JSON file");
-    command->callback(
-        [options, &common] { common.action = [options, &common] { run_bench(*options, common); }; });
+    command->callback([options, &common] {
+        common.action = [options, &common] {
+            options->effects ? run_effects(*options, common) : run_bench(*options, common);
+        };
+    });
 }
 
 }  // namespace vndf::cli

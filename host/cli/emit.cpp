@@ -11,7 +11,7 @@ namespace {
 
 struct Emit {
     std::vector<std::string> names;
-    std::string output = "-", as = "opencl", math = "strict", real = "float", prefix = "vndf_";
+    std::string effects, output = "-", as = "opencl", math = "strict", real = "float", prefix = "vndf_";
     bool selftest = false;
 };
 
@@ -22,6 +22,7 @@ emit::Options options_of(const Emit& e) {
     options.math = math_named(e.math);
     options.real = real_named(e.real);
     options.prefix = e.prefix;
+    options.effects = e.effects;
     options.selftest = e.selftest;
     return options;
 }
@@ -51,6 +52,8 @@ void add_emit(CLI::App& app, Common& common) {
         ->capture_default_str();
     add_switches(*command, e->math, e->real);
     command->add_option("--prefix", e->prefix, "what every name begins with")->capture_default_str();
+    command->add_option("--effects", e->effects,
+                        "of a material: all (default), or effects and choices: conductor,tint,fresnel=f82");
     command->add_flag("--selftest", e->selftest, "with a kernel of known answers that counts wrong results");
     command->callback([e, &common] { common.action = [e] { run(*e); }; });
 }

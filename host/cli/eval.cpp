@@ -31,6 +31,10 @@ const Function& named_function(const std::string& name) {
             throw InputError(fmt::format(
                 "'{}' returns a {}, not numbers: evaluate a function that takes it (see clvndf list)", name,
                 lobe.type));
+    for (const BsdfFunction& bsdf : bsdf_functions())
+        if (bsdf.name == name)
+            throw InputError(fmt::format(
+                "'{}' takes a material, not numbers: have clvndf emit write it for the effects of yours", name));
     throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)", name,
                                  fmt::join(nearest_names(name), ", ")));
 }

@@ -9,6 +9,7 @@
 #include "emit/layout.h"
 #include "emit/prune.h"
 #include "emit/selftest.h"
+#include "effects.h"
 #include "error.h"
 #include "registry.h"
 
@@ -19,6 +20,7 @@ std::vector<std::string> all_names() {
     std::vector<std::string> names;
     for (const Function& function : functions()) names.push_back(function.name);
     for (const LobeFunction& lobe : lobe_functions()) names.push_back(lobe.name);
+    for (const BsdfFunction& bsdf : bsdf_functions()) names.push_back(bsdf.name);
     return names;
 }
 
@@ -33,9 +35,23 @@ std::string renamed(const std::string& text, const std::string& prefix) {
     return std::regex_replace(std::regex_replace(text, lower, prefix), capitals, upper(prefix));
 }
 
+bool is_bsdf(const std::string& name) {
+    return std::any_of(bsdf_functions().begin(), bsdf_functions().end(),
+                       [&](const BsdfFunction& bsdf) { return bsdf.name == name; });
+}
+
+// The first function of a material, or the end.
+auto material_of(const Options& options) {
+    return std::find_if(options.functions.begin(), options.functions.end(), is_bsdf);
+}
+
 std::vector<std::string> macros(const Options& options) {
     std::vector<std::string> all = {fmt::format("VNDF_REAL={}", to_string(options.real)),
                                     fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN"};
+    if (material_of(options) != options.functions.end())
+        for (const std::string& effect :
+             parse_effects(options.effects.empty() ? "all" : options.effects).macros())
+            all.push_back(effect);
     switch (options.language) {
         case Language::opencl:
         case Language::string:
@@ -79,6 +95,7 @@ std::string stamp(const Options& options) {
     add("--math", to_string(options.math), "strict");
     add("--real", to_string(options.real), "float");
     add("--prefix", options.prefix, "vndf_");
+    add("--effects", options.effects, "");
     return options.selftest ? text + " --selftest" : text;
 }
 
@@ -88,6 +105,16 @@ void require_language_with_policy(const Options& options) {
         if (language == options.language && name != "opencl" && name != "string")
             throw InputError(fmt::format(
                 "--math native --as {}: native is OpenCL's alone; strict and builtin are allowed", name));
+}
+
+void require_material(const Options& options) {
+    const auto material = material_of(options);
+    const bool named = material != options.functions.end();
+    if (!named && !options.effects.empty())
+        throw InputError(fmt::format(
+            "--effects {}: no function of a material (vndf_bsdf_sample, ...) is named", options.effects));
+    if (named && options.selftest)
+        throw InputError(fmt::format("--selftest: there are no known answers of {}", *material));
 }
 
 // What the user may want to know before the functions.
@@ -238,7 +265,10 @@ std::string emit(const Options& options) {
     runtime::require_policy(options.math, options.real);
     require_language_with_policy(options);
     require_prefix(options.prefix);
-    const std::vector<Token> tokens = preprocess(runtime::assemble("kernels/vndf/vndf.h"), macros(options));
+    require_material(options);
+    std::string source = runtime::assemble("kernels/vndf/vndf.h");
+    if (material_of(options) != options.functions.end()) source += runtime::assemble("kernels/vndf/bsdf.h");
+    const std::vector<Token> tokens = preprocess(source, macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
     std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);

@@ -13,11 +13,13 @@ namespace vndf::emit {
 enum class Language { opencl, c, cpp, cuda, string };
 
 struct Options {
-    std::vector<std::string> functions;  // full names, of registered functions or lobes
+    std::vector<std::string> functions;  // full names, of registered functions, lobes or materials
     Language language = Language::opencl;
     runtime::Math math = runtime::Math::strict;
     runtime::Real real = runtime::Real::f32;
     std::string prefix = "vndf_";
+    std::string
+        effects;  // of a material, as parse_effects takes them (effects.h); "": all, where one is named
     bool selftest = false;
 };
 

@@ -60,7 +60,7 @@ CLVNDF_PYTHON const char* clvndf_resolve(const char* name) {
 }
 
 CLVNDF_PYTHON const char* clvndf_emit(const char* const* names, std::size_t count, int language, int math,
-                                      int real, const char* prefix, bool selftest) {
+                                      int real, const char* prefix, const char* effects, bool selftest) {
     return text_of([&] {
         emit::Options options;
         for (std::size_t i = 0; i < count; ++i) options.functions.push_back(emit::resolve(names[i]));
@@ -68,6 +68,7 @@ CLVNDF_PYTHON const char* clvndf_emit(const char* const* names, std::size_t coun
         options.math = static_cast<runtime::Math>(math);
         options.real = static_cast<runtime::Real>(real);
         options.prefix = prefix;
+        options.effects = effects;
         options.selftest = selftest;
         return emit::emit(options);
     });

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "reference/materials.h"
 #include "reference/terms.h"
 
 namespace vndf::reference {
@@ -336,6 +337,31 @@ R jacobian_refract_of(Reader<R> in) {
 }
 
 template <class R>
+R fresnel_conductor_of(Reader<R> in) {
+    const R c = in.scalar(), eta = in.scalar();
+    return fresnel_conductor(c, eta, in.scalar());
+}
+template <class R>
+R fresnel_schlick_of(Reader<R> in) {
+    const R c = in.scalar(), f0 = in.scalar();
+    return fresnel_schlick(c, f0, in.scalar());
+}
+template <class R>
+R fresnel_f82_of(Reader<R> in) {
+    const R c = in.scalar(), f0 = in.scalar();
+    return fresnel_f82(c, f0, in.scalar());
+}
+template <class R>
+R lambert_pdf_of(Reader<R> in) {
+    return lambert_pdf(in.vector());
+}
+template <class R>
+Vec3<R> lambert_direction_of(Reader<R> in) {
+    const R u1 = in.u();
+    return lambert_direction(u1, in.u());
+}
+
+template <class R>
 using Slope2 = R (*)(const R&, const R&);
 
 // clang-format off
@@ -377,6 +403,11 @@ constexpr Entry<R> entries[] = {
     {"vndf_beckmann_slope_pdf", evaluate_term<R, of_cosine_x<R, static_cast<Slope2<R>>(beckmann_slope_pdf<R>)>>},
     {"vndf_beckmann_slope_cdf", evaluate_term<R, of_cosine_x<R, beckmann_slope_cdf<R>>>},
     {"vndf_beckmann_slope_cdf_inverse", evaluate_term<R, beckmann_slope_cdf_inverse_of<R>>},
+    {"vndf_fresnel_conductor", evaluate_term<R, fresnel_conductor_of<R>>},
+    {"vndf_fresnel_schlick", evaluate_term<R, fresnel_schlick_of<R>>},
+    {"vndf_fresnel_f82", evaluate_term<R, fresnel_f82_of<R>>},
+    {"vndf_lambert_pdf_wi", evaluate_term<R, lambert_pdf_of<R>>},
+    {"vndf_lambert_sample_wi", evaluate_vector<R, lambert_direction_of<R>>},
     {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},
     {"vndf_refract", evaluate_vector<R, refract_of<R>>},
     {"vndf_jacobian_reflect", evaluate_term<R, jacobian_reflect_of<R>>},

@@ -78,11 +78,12 @@ TEST_CASE("every command runs to its end with every option") {
         "emit --help",
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",
+        "emit vndf_bsdf_sample --effects lambert,fresnel=none --output material.h",
         "policies --help",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
         lines.insert(lines.end(),
-                     {"bench --help",
+                     {"bench --help", "bench --effects --repetitions 3 --device \"$device\"",
                       "bench --only vndf_reflect/cpp --repetitions 3 --device \"$device\" --json bench.json "
                       "--report report",
                       // Its own results, and the committed ones.
@@ -115,7 +116,7 @@ TEST_CASE("every command runs to its end with every option") {
         CHECK(reached.contains(option));
     }
     for (const std::string file :
-         {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h"})
+         {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h", "material.h"})
         CHECK_FALSE(folder.read(file).empty());
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));
 }
@@ -192,6 +193,13 @@ TEST_CASE("emit refuses what it cannot write, and writes the same for the same r
         {"emit vndf_reflect --prefix make_", "belong to C, C++ or OpenCL"},
         {"emit vndf_reflect --prefix ''", "--prefix: its value is empty"},
         {"emit vndf_ggx_conic2026_lobe --selftest", "--selftest: vndf_ggx_conic2026_lobe returns no numbers"},
+        {"emit vndf_reflect --effects all", "--effects all: no function of a material"},
+        {"emit vndf_bsdf_sample --effects lamp", "--effects: unknown 'lamp'; allowed are all, conductor, lambert"},
+        {"emit vndf_bsdf_sample --effects fresnel=x", "unknown 'fresnel=x'"},
+        {"emit vndf_bsdf_sample --effects tint", "--effects 'tint': nothing is left of a material"},
+        {"emit vndf_bsdf_sample --effects all,ndf=beckmann,sampling=conic",
+         "--effects: sampling=conic with ndf=beckmann; plain is allowed"},
+        {"emit vndf_bsdf_sample --selftest", "--selftest: there are no known answers of vndf_bsdf_sample"},
         {"emit vndf_reflect --output nowhere/a.cl", "nowhere/a.cl"},
         {"emit vndf_reflect --as c --as c++", "--as is given twice"}};
     for (const auto& [arguments, said] : cases) {

@@ -296,7 +296,7 @@ TEST_CASE("list --json holds every registered function with its scalars") {
     const Outcome run = clvndf("list --json");
     REQUIRE(run.status == 0);
     const auto json = nlohmann::json::parse(run.out);
-    REQUIRE(json.size() == functions().size() + lobe_functions().size());
+    REQUIRE(json.size() == functions().size() + lobe_functions().size() + bsdf_functions().size());
     for (std::size_t i = 0; i < functions().size(); ++i) {
         const Function& f = functions()[i];
         CHECK(json[i]["name"] == f.name);
@@ -314,6 +314,11 @@ TEST_CASE("list --json holds every registered function with its scalars") {
         const Outcome evaluated = clvndf("eval " + lobe_functions()[i].name + " --on host --input /dev/null");
         CHECK(evaluated.status == 2);
         CHECK_THAT(evaluated.err, ContainsSubstring("not numbers"));
+    }
+    for (std::size_t i = 0; i < bsdf_functions().size(); ++i) {
+        const auto& bsdf = json[functions().size() + lobe_functions().size() + i];
+        CHECK(bsdf["name"] == bsdf_functions()[i].name);
+        CHECK(bsdf["bounds"]["float"]["error"] == bsdf_functions()[i].float_bound);
     }
 }
 

@@ -20,8 +20,10 @@ struct Mutant {
 inline const std::vector<Mutant>& mutants() {
     static const std::vector<Mutant> all{
 #include "mutants/beckmann.h"
+#include "mutants/bsdf_lambert.h"
 #include "mutants/beckmann_heitz_deon2014.h"
 #include "mutants/config.h"
+#include "mutants/fresnel.h"
 #include "mutants/geometry.h"
 #include "mutants/ggx.h"
 #include "mutants/ggx_benyoub2024.h"

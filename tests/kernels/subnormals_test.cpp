@@ -49,6 +49,10 @@ class Ordinary {
                 values.push_back(std::floor(uniform(0, 0x1p24)) * 0x1p-24);
             else if (name == "eta")
                 values.push_back(uniform(.4, 2.5));
+            else if (name == "k")
+                values.push_back(uniform(0, 8));
+            else if (name == "f0" || name == "f90" || name == "tint")
+                values.push_back(uniform(0, 1));
             else if (name == "cos_theta")
                 values.push_back(uniform(-1, 1));
             else if (name == "x" || name.rfind("slope_", 0) == 0)

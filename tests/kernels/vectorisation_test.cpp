@@ -16,7 +16,9 @@
 #include <unistd.h>
 
 #include "bench/sources.h"
+#include "effects.h"
 #include "runtime/device_evaluator.h"
+#include "support/bsdf_program.h"
 #include "support/catch.h"
 #include "support/skip.h"
 
@@ -24,7 +26,8 @@ namespace {
 
 using namespace vndf;
 
-const std::string own_root = "kernels/batch/batch.cl", published_root = "bench/published/batch.cl";
+const std::string own_root = "kernels/batch/batch.cl", published_root = "bench/published/batch.cl",
+                  material_root = "kernels/batch/bsdf.cl";
 
 // Functions whose entry points are not vectorised on PoCL 3.1, each with the reason.
 const std::map<std::string, std::string> exceptions = {};
@@ -61,23 +64,25 @@ const runtime::Substitution scalar_call{"kernels/vndf/impl/lobe.h", "radius * vn
                                         "radius * pow(u1, radius)", 1};
 
 // What a process compiles that is started to print remarks, by its environment: the program at CLVNDF_REMARKS_ROOT, in
-// CLVNDF_REMARKS_REAL, with CLVNDF_REMARKS_MUTANT 1 of the mistake alone the functions of the cap.
+// CLVNDF_REMARKS_REAL, with CLVNDF_REMARKS_MUTANT 1 of the mistake alone the functions of the cap; of materials, with
+// CLVNDF_REMARKS_SWITCHES.
 struct Compilation {
     std::string root;
     runtime::Real real = runtime::Real::f32;
     bool mutant = false;
+    std::string switches = "";
 };
 
 // Everything that such a process prints.
 std::string remarks(const Compilation& compilation) {
     std::string folder = (std::filesystem::temp_directory_path() / "clvndf-remarks-XXXXXX").string();
     REQUIRE(mkdtemp(folder.data()));
-    const std::string command = "POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR='" + folder +
-                                "' CLVNDF_REMARKS_ROOT='" + compilation.root +
-                                "' CLVNDF_REMARKS_REAL=" + std::string(to_string(compilation.real)) +
-                                " CLVNDF_REMARKS_MUTANT=" + (compilation.mutant ? "1" : "0") + " '" +
-                                std::filesystem::read_symlink("/proc/self/exe").string() +
-                                "' 'compiles every entry point' >'" + folder + "/remarks' 2>&1";
+    const std::string command =
+        "POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR='" + folder + "' CLVNDF_REMARKS_ROOT='" + compilation.root +
+        "' CLVNDF_REMARKS_REAL=" + std::string(to_string(compilation.real)) +
+        " CLVNDF_REMARKS_MUTANT=" + (compilation.mutant ? "1" : "0") + " CLVNDF_REMARKS_SWITCHES='" +
+        compilation.switches + "' '" + std::filesystem::read_symlink("/proc/self/exe").string() +
+        "' 'compiles every entry point' >'" + folder + "/remarks' 2>&1";
     const int status = std::system(command.c_str());
     std::ifstream file(folder + "/remarks", std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -112,6 +117,12 @@ std::string not_vectorised(const std::map<std::string, Remarks>& all) {
 TEST_CASE("compiles every entry point", "[.]") {
     const char* root = std::getenv("CLVNDF_REMARKS_ROOT");
     if (!root) return;  // not the child process of remarks()
+    if (root == material_root) {
+        const BsdfProgram program(std::getenv("CLVNDF_REMARKS_SWITCHES"));
+        const Columns halves(6 + bsdf_parameters.size(), std::vector<double>(64, 0.5));
+        program.eval_pdf(halves), program.sample(halves);
+        return;
+    }
     const bool in_double = std::getenv("CLVNDF_REMARKS_REAL") == to_string(runtime::Real::f64);
     runtime::ProgramOptions options;
     options.root = root;
@@ -176,4 +187,44 @@ TEST_CASE("the published listings, ported line by line, are not vectorised, and 
         CHECK_FALSE(vectorised(remarks));
         CHECK_FALSE(remarks.failures.empty());
     }
+}
+
+namespace {
+
+// What is not vectorised of materials with these effects and choices, as clvndf emit --effects takes them.
+std::string not_vectorised_with(const std::string& list) {
+    std::string switches;
+    for (const std::string& macro : parse_effects(list).macros())
+        switches += macro.substr(sizeof "VNDF_" - 1) + ' ';
+    auto all = parse(remarks({material_root, runtime::Real::f32, false, switches}));
+    all["bsdf_eval_pdf"], all["bsdf_sample"];  // without remarks: not vectorised
+    const std::string names = not_vectorised(all);
+    return names.empty() ? names : list + ":\n" + names;
+}
+
+}  // namespace
+
+TEST_CASE("materials are vectorised across work-items on PoCL") {
+    if (!on_pocl()) VNDF_SKIP(not_pocl);
+    for (const char* list : {"all", "conductor", "lambert", "all,fresnel=conductor,masking=separable",
+                             "all,sampling=conic,fresnel=f82", "all,ndf=beckmann,fresnel=conductor"})
+        CHECK(not_vectorised_with(list) == "");
+}
+
+// By hand: every choice, with everything on, each effect off, and the conductor alone.
+TEST_CASE("materials of every choice are vectorised", "[.bsdf-vectorised]") {
+    std::vector<std::string> lists{"all", "conductor"};
+    for (const Effect& off : effects()) {
+        std::string list;
+        for (const Effect& on : effects())
+            if (on.name != off.name) list += (list.empty() ? "" : ",") + on.name;
+        lists.push_back(list);
+    }
+    for (const char* model :
+         {"ndf=ggx,sampling=plain", "ndf=ggx,sampling=bounded", "ndf=ggx,sampling=conic", "ndf=beckmann"})
+        for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
+            for (const char* masking : {"correlated", "separable"})
+                for (const std::string& list : lists)
+                    CHECK(not_vectorised_with(list + ',' + model + ",fresnel=" + fresnel +
+                                              ",masking=" + masking) == "");
 }

@@ -34,7 +34,7 @@ class Evaluation(unittest.TestCase):
         listed = json.loads(command("list", "--json"))
         self.assertEqual([f.name for f in clvndf.functions()], [entry["name"] for entry in listed])
         columns = {entry["name"]: entry.get("inputs") for entry in listed}
-        known = [f for f in clvndf.functions() if f.kind != "lobe"]
+        known = [f for f in clvndf.functions() if f.arguments]
         for i, function in enumerate(known):
             real, math = ("float", "double")[i % 2], ("strict", "builtin")[i // 2 % 2]
             arguments = list(random_arguments(function, 20))
@@ -78,7 +78,8 @@ class Evaluation(unittest.TestCase):
                 (ValueError, "unknown function 'nosuch'; the nearest names are", lambda f: clvndf.function("nosuch")),
                 (ValueError, "'dupuy2023' is ambiguous: 4 functions", lambda f: clvndf.function("dupuy2023")),
                 (AttributeError, "has no attribute 'ggx_nosuch'", lambda f: clvndf.ggx_nosuch),
-                (TypeError, "functions of lobes take", lambda f: clvndf.ggx_lobe_of(WO, ALPHA))]:
+                (TypeError, "functions of lobes take", lambda f: clvndf.ggx_lobe_of(WO, ALPHA)),
+                (TypeError, "a material has no form", lambda f: clvndf.bsdf_pdf(WO, WO, ALPHA))]:
             with self.assertRaisesRegex(exception, words):
                 call(clvndf.ggx_sample_wm_dupuy2023)
 
@@ -92,8 +93,11 @@ class Text(unittest.TestCase):
         self.assertEqual(
             clvndf.emit("ggx_g1", language="c++", prefix="p_", real="double", math="builtin", selftest=True),
             command("emit", "ggx_g1", *"--as c++ --prefix p_ --real double --math builtin --selftest".split()))
+        self.assertEqual(clvndf.emit("bsdf_sample", effects="lambert,fresnel=none"),
+                         command("emit", "bsdf_sample", "--effects", "lambert,fresnel=none"))
         for words, arguments in [("no function named", {}), ("language is 'glsl'", {"language": "glsl"}),
-                                 ("--prefix '1'", {"prefix": "1"}), ("native", {"math": "native", "language": "c"})]:
+                                 ("--prefix '1'", {"prefix": "1"}), ("no function of a material", {"effects": "all"}),
+                                 ("native", {"math": "native", "language": "c"})]:
             with self.assertRaisesRegex(ValueError, words):
                 clvndf.emit(*(["ggx_g1"] if arguments else []), **arguments)
 

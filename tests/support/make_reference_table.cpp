@@ -3,7 +3,7 @@
 //
 //   g++ -std=c++20 -O2 tests/support/make_reference_table.cpp -o make_reference_table
 //   ./make_reference_table > tests/data/reference_50digits.csv          (some ten minutes)
-// (with the argument samplers, terms or conic: that part alone)
+// (with the argument samplers, terms, conic or materials: that part alone)
 //
 // Everything starts from the distributions of slopes
 //   GGX 1 / (pi (1 + x^2 + y^2)^2),  Beckmann exp(-x^2 - y^2) / pi  (alpha = 1),
@@ -716,6 +716,30 @@ std::map<std::string, Evaluation> evaluations() {
         const Vec wo = unit(vec(in, 0)), m = unit(vec(in, 3));
         return Reals{jacobian(reflect(wo, m), [wo](const Vec& wi) { return unit(wo + wi); })};
     };
+    // (a + i b)^2 = (eta + i k)^2 - sin^2, Born & Wolf in real numbers.
+    all["vndf_fresnel_conductor"] = [](const Reals& in) {
+        const Real c = in[0], s2 = 1 - c * c, t = in[1] * in[1] - in[2] * in[2] - s2;
+        const Real size = sqrt(t * t + 4 * in[1] * in[1] * in[2] * in[2]);
+        const Real a = sqrt((size + t) / 2), rs = (size + c * c - 2 * a * c) / (size + c * c + 2 * a * c);
+        const Real even = c * c * size + s2 * s2, odd = 2 * a * c * s2;
+        return Reals{rs * (1 + (even - odd) / (even + odd)) / 2};
+    };
+    const auto schlick = [](const Real& c, const Real& f0, const Real& f90) {
+        return Real(f0 + (f90 - f0) * pow(1 - c, 5));
+    };
+    all["vndf_fresnel_schlick"] = [schlick](const Reals& in) { return Reals{schlick(in[0], in[1], in[2])}; };
+    all["vndf_fresnel_f82"] = [schlick](const Reals& in) {
+        const Real edge = Real(1) / 7, b = schlick(edge, in[1], 1) * (1 - in[2]) / (edge * pow(1 - edge, 6));
+        const Real f = schlick(in[0], in[1], 1) - b * in[0] * pow(1 - in[0], 6);
+        return Reals{f > 0 ? f : Real(0)};
+    };
+    all["vndf_lambert_pdf_wi"] = [](const Reals& in) {
+        return Reals{in[2] > 0 ? Real(in[2] / pi) : Real(0)};
+    };
+    all["vndf_lambert_sample_wi"] = [](const Reals& in) {
+        const Real r = sqrt(in[1]);
+        return list(Vec{r * cos(2 * pi * in[0]), r * sin(2 * pi * in[0]), sqrt(1 - in[1])});
+    };
     all["vndf_jacobian_refract"] = [](const Reals& in) {
         const Vec wo = unit(vec(in, 0)), wi = unit(vec(in, 3));
         const Real eta = in[6];
@@ -831,6 +855,7 @@ class Table {
         if (!sampler) return;
         into(x[n - 1], low, high);
         into(x[n - 2], low, high);
+        if (n == 2) return;  // of no lobe
         into(x[n - 3], alpha, 1e300);
         if (name.find("benyoub") == std::string::npos && name.find("isotropic") == std::string::npos)
             into(x[n - 4], alpha, 1e300);
@@ -1005,6 +1030,30 @@ void conic(Table& table) {
     for (const Lobe& l : back_lobes) add(l);
 }
 
+void materials(Table& table) {
+    for (const Lobe& l : lobes) {
+        std::vector<double> in, wi;
+        direction(l, in);
+        direction({0.3 + l.cos_theta / 2, l.phi + 2, l.ax, l.ay}, wi);
+        in.insert(in.end(), wi.begin(), wi.end());
+        in.insert(in.end(), {l.ax, l.ay});
+        if (l.cos_theta > 1e-3) table.row("vndf_beckmann_weight", in);
+    }
+    for (const double c : {1., 0.9, 0.5, 0.15, 1e-3}) {
+        for (const double eta : {0.05, 0.6, 1.01, 1.5, 2.7})
+            for (const double k : {0.2, 3.4}) table.row("vndf_fresnel_conductor", {c, eta, k});
+        for (const double f0 : {0.04, 0.9})
+            for (const double other : {0.1, 1.}) {
+                table.row("vndf_fresnel_schlick", {c, f0, other});
+                table.row("vndf_fresnel_f82", {c, f0, other});
+            }
+    }
+    table.row("vndf_lambert_pdf_wi", {0.6, 0, 0.8});
+    table.row("vndf_lambert_pdf_wi", {0.6, 0, -0.8});
+    for (const auto& u : us)
+        for (const bool f32 : {true, false}) table.row("vndf_lambert_sample_wi", {u[0], u[1]}, f32);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -1013,4 +1062,5 @@ int main(int argc, char** argv) {
     if (part.empty() || part == "samplers") samplers(table);
     if (part.empty() || part == "terms") terms(table);
     if (part.empty() || part == "conic") conic(table);
+    if (part.empty() || part == "materials") materials(table);
 }

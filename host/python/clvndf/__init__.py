@@ -50,19 +50,20 @@ def options(device, math="strict", real="float"):
                             bool(config & 1 << 5), bool(config & 1 << 7)).split()
 
 
-def emit(*names, language="opencl", prefix="vndf_", math="strict", real="float", selftest=False):
+def emit(*names, language="opencl", prefix="vndf_", math="strict", real="float", effects="", selftest=False):
     """One self-contained source text with the functions named, what they call, and nothing else.
 
     names: as of `functions()`, with or without vndf_, or any part that no other name has.
     language: "opencl", "c", "c++", "cuda", or "string", OpenCL C as a string of C.
-    prefix: what every name begins with. selftest: with a function of known answers, to be run under your build flags.
+    prefix: what every name begins with. effects: of a material: "all", which "" stands for, or effects and choices,
+    "conductor,tint,fresnel=f82". selftest: with a function of known answers, to be run under your build flags.
     """
     if not names:
         raise ValueError("emit: no function named")
     encoded = (_library.ctypes.c_char_p * len(names))(*(name.encode() for name in names))
     return _library.emit(encoded, len(names), _library.choice("language", language, _library.LANGUAGE),
                          _library.choice("math", math, _library.MATH), _library.choice("real", real, _library.REAL),
-                         prefix.encode(), selftest)
+                         prefix.encode(), effects.encode(), selftest)
 
 
 def __getattr__(name):

@@ -20,11 +20,11 @@ class Argument:
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Function:
     name: str
-    kind: str  # sampler, density, term, inverse, geometry, lobe
+    kind: str  # sampler, density, term, pair, inverse, geometry, lobe, material
     ndf: str  # ggx, beckmann, any
     signature: str  # of the kernel: "wo, alpha, u"
     source: str  # where it was published
-    arguments: tuple  # of Argument, for a call from Python; empty for a lobe, which is not called
+    arguments: tuple  # of Argument, for a call from Python; empty for a lobe or a material, which is not called
     outputs: tuple  # of names: "wm_x", "wm_y", "wm_z"[, "pdf"]; "value"; "u1", "u2"
     bounds: dict  # by "float" and "double", in units of 2^-24 and 2^-53: what clvndf check asserts
     facts: dict  # of a sampler density, method, domain; of a density support; and the unit of the bounds
@@ -60,7 +60,9 @@ class Function:
         whose name ends in _with_pdf returns a pair: directions and densities.
         """
         if not self.arguments:
-            raise TypeError(f"{self.name}: a lobe has no form in NumPy; functions of lobes take {self.signature} here")
+            instead = ("functions of lobes take " + self.signature + " here" if self.kind == "lobe" else
+                       "emit() writes it for the effects of yours")
+            raise TypeError(f"{self.name}: a {self.kind} has no form in NumPy; {instead}")
         try:
             call = self.__signature__.bind(*args, **named)
         except TypeError as error:
@@ -132,7 +134,7 @@ def _comments():
 
 @functools.cache
 def functions():
-    """Every function, in the registry's order, as a tuple; those that set up lobes at its end."""
+    """Every function, in the registry's order, as a tuple; those that set up lobes, and materials, at its end."""
     comments = _comments()
     known = []
     for entry in json.loads(_library.registry()):

@@ -32,7 +32,7 @@ text = _text("text")
 options = _text("options", ctypes.c_int, ctypes.c_int, ctypes.c_bool, ctypes.c_bool)
 resolve = _text("resolve", ctypes.c_char_p)
 emit = _text("emit", ctypes.POINTER(ctypes.c_char_p), ctypes.c_size_t, ctypes.c_int, ctypes.c_int, ctypes.c_int,
-             ctypes.c_char_p, ctypes.c_bool)
+             ctypes.c_char_p, ctypes.c_char_p, ctypes.c_bool)
 evaluate = _library.clvndf_evaluate
 evaluate.argtypes = (ctypes.c_char_p, ctypes.c_int, ctypes.c_int, ctypes.c_size_t, _POINTERS, _POINTERS)
 evaluate.restype = None

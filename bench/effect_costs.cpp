@@ -1,0 +1,121 @@
+#include "effect_costs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "effects.h"
+#include "runtime/program.h"
+#include "splitmix64.h"
+
+namespace vndf::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t groups = 16, items = groups * runtime::group_size, launched = 1 << 18;
+constexpr std::size_t inputs = 24, outputs = 8;
+
+EffectCost cost_of(const std::string& program, const std::string& list) {
+    return {program, parse_effects(list).macros()};
+}
+
+std::vector<EffectCost> programs() {
+    std::vector<EffectCost> all{cost_of("all", "all")};
+    std::vector<std::string> names;
+    for (const Effect& effect : effects()) names.push_back(effect.name);
+    for (const std::string& off : names) {
+        std::string list;
+        for (const std::string& name : names)
+            if (name != off) list += (list.empty() ? "" : ",") + name;
+        all.push_back(cost_of("all without " + off, list));
+    }
+    all.push_back(cost_of("conductor alone", "conductor"));
+    for (const std::string& name : names)
+        if (name != "conductor") all.push_back(cost_of("conductor and " + name, "conductor," + name));
+    return all;
+}
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Directions above the surface and materials as scenes have them; the last three are the geometric normal.
+void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
+    SplitMix64 draw(1);
+    std::vector<std::vector<float>> columns(inputs, std::vector<float>(items));
+    for (std::size_t i = 0; i < items; ++i) {
+        for (std::size_t c = 0; c < inputs; ++c) columns[c][i] = static_cast<float>(draw.uniform());
+        const double z = columns[2][i], phi = 6.2831853 * draw.uniform(), r = std::sqrt(1 - z * z);
+        columns[0][i] = static_cast<float>(r * std::cos(phi)),
+        columns[1][i] = static_cast<float>(r * std::sin(phi));
+        columns[6][i] = static_cast<float>(std::exp(-7 * draw.uniform())), columns[7][i] = columns[6][i];
+        columns[21][i] = columns[22][i] = .1f, columns[23][i] = .99f;
+    }
+    for (std::size_t c = 0; c < inputs; ++c)
+        program.queue().enqueueWriteBuffer(buffers[c], CL_TRUE, 0, items * sizeof(float), columns[c].data());
+}
+
+struct Running {
+    runtime::Program program;
+    cl::Kernel sample, eval_pdf;
+};
+
+double nanoseconds(const Running& running, const cl::Kernel& kernel) {
+    const auto start = Clock::now();
+    running.program.launch(kernel, launched);
+    running.program.queue().finish();
+    return seconds_since(start) * 1e9 / static_cast<double>(launched);
+}
+
+}  // namespace
+
+std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetitions,
+                                     const std::function<void(double done)>& progress) {
+    std::vector<EffectCost> costs = programs();
+    std::vector<Running> all;
+    std::vector<cl::Buffer> buffers;
+    for (EffectCost& cost : costs) {
+        runtime::ProgramOptions options;
+        options.root = "kernels/batch/bsdf.cl";
+        options.build_options =
+            fmt::format("-DVNDF_BSDF_GROUPS={} -D{}", groups, fmt::join(cost.macros, " -D"));
+        const auto start = Clock::now();
+        runtime::Program program =
+            all.empty()
+                ? runtime::Program(device, runtime::Math::strict, runtime::Real::f32, options)
+                : runtime::Program(all[0].program, runtime::Math::strict, runtime::Real::f32, options);
+        Running running{program, program.kernel("vndf_batch_bsdf_sample"),
+                        program.kernel("vndf_batch_bsdf_eval_pdf")};
+        program.guarded("measure a material", [&] {
+            if (buffers.empty()) {
+                for (std::size_t i = 0; i < inputs + outputs; ++i)
+                    buffers.push_back(program.buffer(items * sizeof(float)));
+                fill(program, buffers);
+            }
+            for (cl_uint i = 0; i < inputs + outputs; ++i) running.sample.setArg(i, buffers[i]);
+            for (cl_uint i = 0; i < inputs + 4; ++i) running.eval_pdf.setArg(i, buffers[i]);
+            // Some drivers compile at the first launch.
+            for (const cl::Kernel* kernel : {&running.sample, &running.eval_pdf})
+                program.launch(*kernel, runtime::group_size);
+            program.queue().finish();
+        });
+        cost.build_s = seconds_since(start);
+        cost.sample_ns = cost.eval_pdf_ns = std::numeric_limits<double>::infinity();
+        all.push_back(running);
+        progress(.5 * static_cast<double>(all.size()) / static_cast<double>(costs.size()));
+    }
+    for (int repetition = 0; repetition < repetitions; ++repetition) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            costs[i].sample_ns = std::min(costs[i].sample_ns, nanoseconds(all[i], all[i].sample));
+            costs[i].eval_pdf_ns = std::min(costs[i].eval_pdf_ns, nanoseconds(all[i], all[i].eval_pdf));
+        }
+        progress(.5 + .5 * (repetition + 1) / repetitions);
+    }
+    return costs;
+}
+
+}  // namespace vndf::bench

@@ -1,0 +1,101 @@
+#include "effects.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "error.h"
+
+namespace vndf {
+namespace {
+
+std::string cased(std::string text, int (*to)(int)) {
+    for (char& c : text) c = static_cast<char>(to(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+    std::vector<std::string> words{""};
+    for (const char c : text) {
+        if (c == separator)
+            words.emplace_back();
+        else
+            words.back() += c;
+    }
+    return words;
+}
+
+InputError unknown(std::string_view word) {
+    std::vector<std::string> allowed{"all"};
+    for (const Effect& effect : effects()) allowed.push_back(effect.name);
+    for (const EffectChoice& choice : effect_choices())
+        allowed.push_back(fmt::format("{}={}", choice.name, fmt::join(choice.values, "|")));
+    return InputError(fmt::format("--effects: unknown '{}'; allowed are {}", word, fmt::join(allowed, ", ")));
+}
+
+void choose(Effects& chosen, const std::string& word) {
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+    for (const EffectChoice& choice : effect_choices())
+        if (choice.name == name && std::count(choice.values.begin(), choice.values.end(), value)) {
+            chosen.choices[name] = value;
+            return;
+        }
+    throw unknown(word);
+}
+
+}  // namespace
+
+const std::vector<EffectChoice>& effect_choices() {
+    static const std::vector<EffectChoice> all{
+#define VNDF_CHOICE(name, values) {cased(#name, std::tolower), split(values, ' ')},
+#include "../kernels/effects.def"
+    };
+    return all;
+}
+
+const std::vector<Effect>& effects() {
+    static const std::vector<Effect> all{
+#define VNDF_EFFECT(name, called_for, marks) {cased(#name, std::tolower), called_for},
+#include "../kernels/effects.def"
+    };
+    return all;
+}
+
+std::vector<std::string> Effects::macros() const {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : choices)
+        all.push_back(fmt::format("VNDF_{}={}", cased(name, std::toupper), value));
+    for (const auto& [name, is_on] : on)
+        all.push_back(fmt::format("VNDF_{}={}", cased(name, std::toupper), is_on ? 1 : 0));
+    return all;
+}
+
+Effects parse_effects(std::string_view list) {
+    Effects chosen;
+    for (const Effect& effect : effects()) chosen.on[effect.name] = false;
+    for (const std::string& word : split(list, ',')) {
+        if (word.find('=') != word.npos)
+            choose(chosen, word);
+        else if (word == "all")
+            for (auto& [name, is_on] : chosen.on) is_on = true;
+        else if (const auto found = chosen.on.find(word); found != chosen.on.end())
+            found->second = true;
+        else
+            throw unknown(word);
+    }
+    const bool beckmann = chosen.choices.contains("ndf") && chosen.choices.at("ndf") == "beckmann";
+    const bool sampling = chosen.choices.contains("sampling");
+    if (beckmann && sampling && chosen.choices.at("sampling") != "plain")
+        throw InputError(fmt::format("--effects: sampling={} with ndf=beckmann; plain is allowed",
+                                     chosen.choices.at("sampling")));
+    for (const EffectChoice& choice : effect_choices()) chosen.choices.emplace(choice.name, choice.values[0]);
+    if (beckmann) chosen.choices["sampling"] = "plain";
+    if (!chosen.on.at("conductor") && !chosen.on.at("lambert"))
+        throw InputError(fmt::format(
+            "--effects '{}': nothing is left of a material; it needs conductor, lambert or both", list));
+    return chosen;
+}
+
+}  // namespace vndf

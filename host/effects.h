@@ -1,0 +1,35 @@
+// The switches of a material (kernels/effects.def) as C++ data, and the lists of them that users write.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vndf {
+
+struct EffectChoice {
+    std::string name;                 // "fresnel": VNDF_FRESNEL
+    std::vector<std::string> values;  // the default first
+};
+const std::vector<EffectChoice>& effect_choices();
+
+struct Effect {
+    std::string name;        // "back_facing": VNDF_BACK_FACING
+    std::string called_for;  // what in a scene calls for it
+};
+const std::vector<Effect>& effects();
+
+// What a program is built with: a value of each choice, and whether each effect is on.
+struct Effects {
+    std::map<std::string, std::string> choices;
+    std::map<std::string, bool> on;
+    // "VNDF_NDF=ggx", "VNDF_LAMBERT=0" ..., every switch.
+    std::vector<std::string> macros() const;
+};
+
+// "all", or names of effects and values of choices, in any order: "conductor,tint,fresnel=f82", "all,ndf=beckmann". What is not
+// named is off, or the default. Throws InputError on what there is not, and where no program is left.
+Effects parse_effects(std::string_view list);
+
+}  // namespace vndf
