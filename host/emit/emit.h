@@ -19,7 +19,7 @@ struct Options {
     std::string prefix = "vndf_";
     bool selftest = false;
     std::vector<std::string> effects;  // macros of a material's switches
-    std::string stamp;  // which program wrote it, and how
+    std::string stamp;                 // which program wrote it, and how
 };
 
 // Whether it is a function of a material, which has switches.
