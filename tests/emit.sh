@@ -131,6 +131,16 @@ for function in $all; do
     # In double one of four, and in the sample none.
     [ $step = 1 ] && [ $((count % 4)) = 0 ] && one $function --selftest --real double
 done
+# Materials with some of their effects.
+one vndf_bsdf_sample --effects conductor,tint,fresnel=f82
+if [ $step = 1 ]; then
+    for effects in all lambert conductor conductor,lambert,sampling=conic,fresnel=conductor \
+        all,ndf=beckmann,masking=separable,fresnel=none; do
+        for function in vndf_bsdf_sample vndf_bsdf_eval vndf_bsdf_pdf vndf_bsdf_eval_pdf; do
+            one $function --effects $effects
+        done
+    done
+fi
 [ $compilations -ge 50 ] || failed "too few compilations to believe it: $compilations"
 
 # Two files with different prefixes, types and languages' guards in one program, and nothing without its prefix.

@@ -216,6 +216,12 @@ std::string as_string(const std::string& source, const Options& options) {
            "\n#endif\n";
 }
 
+// What users of a material fill in and read.
+const std::set<std::string>& material_structs() {
+    static const std::set<std::string> all{"vndf_bsdf", "vndf_bsdf_value", "vndf_bsdf_direction", "vndf_rgb"};
+    return all;
+}
+
 }  // namespace
 
 const std::map<std::string, Language>& languages() {
@@ -271,7 +277,7 @@ std::string emit(const Options& options) {
     const std::vector<Token> tokens = preprocess(source, macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
-    std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names);
+    std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names, material_structs());
     std::set<std::string> files;  // whose head is kept: of those with a function asked for
     for (const Declaration& declaration : chosen)
         if (names.contains(declaration.name)) files.insert(declaration.file);

@@ -18,8 +18,7 @@ struct Options {
     runtime::Math math = runtime::Math::strict;
     runtime::Real real = runtime::Real::f32;
     std::string prefix = "vndf_";
-    std::string
-        effects;  // of a material, as parse_effects takes them (effects.h); "": all, where one is named
+    std::string effects;  // of a material, as parse_effects takes them (effects.h); "": all
     bool selftest = false;
 };
 

@@ -107,9 +107,14 @@ void add_members_read(const Tokens& tokens, std::size_t begin, std::size_t end, 
         if (is(tokens[i], ".")) read.insert(tokens[i + 1].text);
 }
 
-// The members of which something that is returned depends.
-std::set<std::string> members_read(const std::vector<Declaration>& all) {
+// The members of which something that is returned depends, and those of these structs.
+std::set<std::string> members_read(const std::vector<Declaration>& all,
+                                   const std::set<std::string>& structs) {
     std::set<std::string> read;
+    for (const Declaration& declaration : all)
+        if (is_struct(declaration) && structs.contains(declaration.name))
+            for (const Statement& statement : statements(declaration.tokens))
+                for (const Declarator& d : declarators(declaration.tokens, statement)) read.insert(d.name);
     for (std::size_t before = 0; read.empty() || before != read.size();) {
         before = read.size();
         for (const Declaration& function : all) {
@@ -219,10 +224,11 @@ bool drop_parameter(std::vector<Declaration>& all, Declaration& function) {
 
 }  // namespace
 
-std::vector<Declaration> pruned(std::vector<Declaration> all, const std::set<std::string>& names) {
+std::vector<Declaration> pruned(std::vector<Declaration> all, const std::set<std::string>& names,
+                                const std::set<std::string>& structs) {
     for (bool changed = true; changed;) {
         changed = false;
-        const std::set<std::string> read = members_read(all);
+        const std::set<std::string> read = members_read(all, structs);
         for (Declaration& declaration : all) {
             if (is_struct(declaration)) changed |= drop_members(declaration.tokens, read);
             if (!is_function(declaration)) continue;

@@ -64,7 +64,7 @@ struct vndf_bsdf_value {
     VNDF_REAL pdf;
 };
 
-// A direction, BSDF times |cos(theta_i)| over its density, the density per steradian, and the lobe.
+// A direction, BSDF times |cos(theta_i)| over its density, the density per steradian, and the lobe (0 the conductor, 1 Lambert).
 struct vndf_bsdf_direction {
     VNDF_REAL wi_x, wi_y, wi_z;
     struct vndf_rgb weight;

@@ -65,6 +65,8 @@ inline const std::map<std::string, Values>& values() {
         {"--compare", {{"a.json"}, {""}}},
         {"--as", {{"opencl", "c", "c++", "cuda", "string"}, {"C", "metal", "", "opencl "}}},
         {"--prefix", {{"vndf_", "a", "1"}, {""}}},
+        {"emit --effects",
+         {{"all", "lambert,tint", "conductor,fresnel=f82"}, {"", "lamp", "tint", "fresnel=", "all,ndf=x"}}},
         {"eval --on", {{"device", "host", "reference"}, {"gpu", "", "hos"}}},
         {"check --on", {{"device", "host"}, {"reference", ""}}},
         {"--flags",
