@@ -14,6 +14,7 @@
 
 #include "impl/beckmann_slopes.h"
 #include "impl/beckmann_terms.h"
+#include "impl/world.h"
 
 VNDF_BEGIN
 
@@ -72,24 +73,45 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return w.z > VNDF_R(0.0) ? vndf_impl_min(w.z / vndf_beckmann_sigma(w, alpha), VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
-// Height-correlated masking and shadowing of a reflection.
-// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
-// wo, wi: unit vectors, local frame.
-// return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 9.
-VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+// A quarter of Lambda(wo) and of 1 + Lambda(wo) + Lambda(wi), so that the sum of two poles is a number.
+struct vndf_impl_masking {
+    VNDF_REAL quarter_o, both;
+    int above;  // wo and wi are
+};
+VNDF_FN struct vndf_impl_masking vndf_impl_beckmann_masking(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_impl_masking m;
     // wi's terms are made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
     // Next to nothing counts as little: it is slow where it is no normal number.
     VNDF_REAL little = VNDF_EPSILON * VNDF_EPSILON;
     VNDF_REAL lambda_o = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wo, alpha), little);
     VNDF_REAL2 alpha_i = VNDF_MAKE2(lambda_o >= VNDF_R(0.0) ? alpha.x : VNDF_R(1.0),
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
-    VNDF_REAL lambda_i = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wi, alpha_i), little),
-              quarter = VNDF_R(0.25);
-    // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
-    // exchanged.
-    VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(quarter / sum, VNDF_R(1.0)) : VNDF_R(0.0);
+    VNDF_REAL lambda_i = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wi, alpha_i), little);
+    m.quarter_o = VNDF_R(0.25) * lambda_o;
+    // A sum of equals: the same bits for wo and wi exchanged.
+    m.both = VNDF_FMA(VNDF_R(0.25), lambda_i, m.quarter_o) + VNDF_R(0.25);
+    m.above = vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0);
+    return m;
+}
+
+// Height-correlated masking and shadowing of a reflection.
+// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_impl_masking m = vndf_impl_beckmann_masking(wo, wi, alpha);
+    return m.above ? vndf_impl_min(VNDF_R(0.25) / m.both, VNDF_R(1.0)) : VNDF_R(0.0);
+}
+
+// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_beckmann_pdf_wi of a perfectly conducting mirror.
+// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)).
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 8.
+VNDF_FN VNDF_REAL vndf_beckmann_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_impl_masking m = vndf_impl_beckmann_masking(wo, wi, alpha);
+    return m.above ? vndf_impl_min((m.quarter_o + VNDF_R(0.25)) / m.both, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -126,12 +148,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL2 
 //     there.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
-    // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
-    struct vndf_impl_pair dot = vndf_impl_dot_pair(wo.x, wo.y, wo.z, x, y, z);
-    VNDF_REAL low = VNDF_FMA(
-        wo.x, vndf_impl_sum_error(wo.x, wi.x, x),
-        VNDF_FMA(wo.y, vndf_impl_sum_error(wo.y, wi.y, y), wo.z * vndf_impl_sum_error(wo.z, wi.z, z)));
-    VNDF_REAL cosine = dot.head + (dot.tail + low);
+    // With the rounding errors of h: near wi = -wo it is the square of a small h.
+    VNDF_REAL cosine = vndf_impl_half_dot(wo, vndf_impl_half_sum_of(wo, wi));
     VNDF_REAL height = vndf_impl_beckmann_height(z), tx = x / height, ty = y / height;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
     VNDF_REAL pdf = vndf_impl_beckmann_visible(wo, x, y, height, z > VNDF_R(0.0) ? cosine : VNDF_R(0.0), 1,

@@ -18,6 +18,20 @@ struct Nodes {
     std::vector<double> weight;
 };
 
+// Of a density that takes cosines: those of the normals, and of the normals that reflect wo along the rule's directions.
+void add_cosines(const Function& density, const std::vector<double>& row, const reference::QuadratureRule& rule,
+                 Table& inputs) {
+    const Direction wo = RowReader(density).local(row.data()).wo;
+    const int wo_dot_wm = column(density, "wo_dot_wm");
+    for (std::size_t i = 0; i < rule.size(); ++i) {
+        Direction m{rule.x[i], rule.y[i], rule.z[i]};
+        if (density.support == Support::mirrored)
+            for (int k = 0; k < 3; ++k) m[k] += wo[k];
+        inputs.columns[column(density, "cos_theta_m")][i] = m[2] / length(m);
+        if (wo_dot_wm >= 0) inputs.columns[wo_dot_wm][i] = dot(wo, m) / length(m);
+    }
+}
+
 // The density's own direction is the last of its vectors: wm or wi.
 Nodes nodes(const Function& density, const std::vector<double>& row, Real real) {
     const reference::QuadratureRule rule =
@@ -26,9 +40,13 @@ Nodes nodes(const Function& density, const std::vector<double>& row, Real real) 
     Nodes result;
     result.weight = rule.weight;
     for (const double value : row) result.inputs.columns.emplace_back(rule.size(), value);
-    result.inputs.columns[variable] = rule.x;
-    result.inputs.columns[variable + 1] = rule.y;
-    result.inputs.columns[variable + 2] = rule.z;
+    if (variable >= 0) {
+        result.inputs.columns[variable] = rule.x;
+        result.inputs.columns[variable + 1] = rule.y;
+        result.inputs.columns[variable + 2] = rule.z;
+    } else {
+        add_cosines(density, row, rule, result.inputs);
+    }
     for (std::vector<double>& column : result.inputs.columns)
         for (double& value : column) value = rounded(value, real);
     return result;

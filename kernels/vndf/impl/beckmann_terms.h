@@ -71,6 +71,27 @@ VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(VNDF_REAL3 wo, VNDF_REAL
     return exponent;
 }
 
+// weight D / sigma(wo), whose exponentials leave e^-exponent: q of D, and behind the surface q - a^2. 1 / height^4 of D is
+// `rise`^2; l and z are those of the stretched wo.
+VNDF_FN VNDF_REAL vndf_impl_beckmann_share(VNDF_REAL l, VNDF_REAL z, struct vndf_impl_pair exponent,
+                                           VNDF_REAL rise, VNDF_REAL weight, VNDF_REAL alpha_x,
+                                           VNDF_REAL alpha_y) {
+    VNDF_REAL hidden_area = vndf_impl_scaled_erfc_of(vndf_impl_beckmann_cot(l, z)).ierfcx;
+    VNDF_REAL hidden_l = l > VNDF_R(0.0) ? l : VNDF_R(1.0);
+    int front = z >= VNDF_R(0.0);
+    // Powers of two apart: below the horizon l I(a) may be as small as weight.
+    // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
+    // (impl/stretch.h).
+    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_unseen(l, z) + z : hidden_l), scale;
+    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? hidden_area : VNDF_R(1.0));
+    struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
+    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
+    scale.part = VNDF_1_PI * share * up.part / (alpha_x * alpha_y) * up.part;
+    scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
+    VNDF_REAL result = vndf_impl_finite(vndf_impl_bounded_exp(-exponent.head, -exponent.tail, scale));
+    return front || l > VNDF_R(0.0) ? result : VNDF_R(0.0);
+}
+
 // weight D / sigma(wo) for a normal (x, y, z), z > 0: 1 / height^4 of D is `rise`^2, and cosine is wo . (x, y, z), exact to
 // rounding. Behind the surface the exponents of D and sigma combine: with the slope |a| + tau along wo and y across,
 // q - a^2 = tau (2 |a| + tau) + y^2. A normal that faces away (tau < 0) occurs only as the half vector of two rounded
@@ -79,7 +100,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
                                              VNDF_REAL cosine, int rounded, VNDF_REAL rise, VNDF_REAL weight,
                                              VNDF_REAL2 alpha) {
     struct vndf_impl_view v = vndf_impl_stretch(wo, alpha);
-    VNDF_REAL a = vndf_impl_beckmann_cot(v.l, wo.z), hidden_area = vndf_impl_scaled_erfc_of(a).ierfcx;
+    VNDF_REAL a = vndf_impl_beckmann_cot(v.l, wo.z);
     int front = wo.z >= VNDF_R(0.0);
     // Slopes beyond 2^62 (double: 2^510) have the density 0.
     VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
@@ -96,20 +117,10 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible(VNDF_REAL3 wo, VNDF_REAL x, VNDF_RE
     VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), a, lean), across * across);
     struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(wo, q, v.alpha_x, v.alpha_y);
     int away = rounded && !front && tau < VNDF_R(0.0);
-    VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
-    // Powers of two apart: below the horizon l I(a) may be as small as weight.
-    // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
-    // (impl/stretch.h).
-    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_unseen(v.l, wo.z) + wo.z : l),
-                           scale;
-    struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? hidden_area : VNDF_R(1.0));
-    struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
-    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
-    scale.part = VNDF_1_PI * share * up.part / (v.alpha_x * v.alpha_y) * up.part;
-    scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
-    VNDF_REAL result =
-        vndf_impl_finite(vndf_impl_bounded_exp(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale));
-    return front || v.l > VNDF_R(0.0) ? result : VNDF_R(0.0);
+    struct vndf_impl_pair left;
+    left.head = front ? q : (away ? hidden.head : steep);
+    left.tail = away ? hidden.tail : VNDF_R(0.0);
+    return vndf_impl_beckmann_share(v.l, wo.z, left, rise, weight, v.alpha_x, v.alpha_y);
 }
 
 // z > 0 at least 2^-62 (double: 2^-510), below which slopes are too large for any number.

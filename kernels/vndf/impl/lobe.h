@@ -14,6 +14,7 @@
 #ifndef VNDF_IMPL_LOBE_H
 #define VNDF_IMPL_LOBE_H
 
+#include "exact.h"
 #include "stretch.h"
 
 VNDF_BEGIN
@@ -85,10 +86,6 @@ VNDF_FN struct vndf_ggx_lobe vndf_impl_lobe_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) 
 VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
     return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
 }
-
-struct vndf_impl_vector {
-    VNDF_REAL x, y, z;
-};
 
 // The point on the cap, e: its height z, R^2 = |e|^2, what of it is more than l2 = x^2 + y^2, and the sum of both.
 struct vndf_impl_cap_point {
