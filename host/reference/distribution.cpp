@@ -75,12 +75,13 @@ const Distribution::Known& Distribution::known(std::string_view density) {
         {"vndf_beckmann_pdf_wi", Kind::beckmann, wi, beckmann_reflection},
         {"vndf_ggx_pdf_wm_world", Kind::ggx, wm_world, ggx_benyoub2024<double>},
         {"vndf_ggx_pdf_wi_world", Kind::ggx, wi_world, ggx_reflection_about_n},
+        // By cosines the normals stand for the reflections.
         {"vndf_ggx_pdf_wm_cosines", Kind::ggx, wm, ggx_dupuy2023<double>},
-        {"vndf_ggx_pdf_wi_cosines", Kind::ggx, wi, ggx_reflection},
+        {"vndf_ggx_pdf_wi_cosines", Kind::ggx, wm, ggx_dupuy2023<double>},
         {"vndf_beckmann_pdf_wm_world", Kind::beckmann, wm_world, beckmann_about_n},
         {"vndf_beckmann_pdf_wi_world", Kind::beckmann, wi_world, beckmann_reflection_about_n},
         {"vndf_beckmann_pdf_wm_cosines", Kind::beckmann, wm, beckmann_jakob2014<double>},
-        {"vndf_beckmann_pdf_wi_cosines", Kind::beckmann, wi, beckmann_reflection},
+        {"vndf_beckmann_pdf_wi_cosines", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wm_walter2007", Kind::beckmann, wm_plain, beckmann_walter2007<double>},
     };
     const auto at =

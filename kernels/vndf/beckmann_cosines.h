@@ -1,7 +1,7 @@
 // The terms and densities of the isotropic Beckmann distribution from cosines alone.
 //
-// Names of beckmann.h; ggx_cosines.h says what cosines are worth: half a unit moves D and the densities by up to 4 / alpha^2
-// times as much, for the lobe's peak; and times 1 + q at the exponent q.
+// Names of beckmann.h; ggx_cosines.h says what cosines are worth: half a unit moves D and the densities 2 / alpha^2 times as
+// much, anywhere in the lobe.
 // cosines: in [-1, 1]; beyond, as rounding makes them, the sine is 0. Of the angles to the macroscopic normal if not said
 //     otherwise.
 //
@@ -73,12 +73,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_weight_cosines(VNDF_REAL cos_theta_o, VNDF_REAL 
 
 // weight D / sigma(wo). Behind the surface the exponents of both combine to
 //     q - a^2 = (1 - o^2 - m^2) / (alpha m sin(theta_o))^2, o and m the cosines:
-// of the two squares of sines the larger begins, which leaves the rounding of q. It is negative for no visible normal.
+// begun with the smaller of the two squares of sines, it has the rounding of q. It is negative for no visible normal.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_visible_cosines(VNDF_REAL3 o, VNDF_REAL cos_theta_m, VNDF_REAL weight,
                                                      VNDF_REAL alpha) {
     VNDF_REAL a = vndf_impl_alpha(alpha), z = vndf_impl_beckmann_height(cos_theta_m);
     VNDF_REAL m2 = VNDF_FMA(-cos_theta_m, cos_theta_m, VNDF_R(1.0)), o2 = VNDF_FMA(-o.z, o.z, VNDF_R(1.0));
-    VNDF_REAL gap = o2 < m2 ? VNDF_FMA(-o.z, o.z, m2) : VNDF_FMA(-cos_theta_m, cos_theta_m, o2);
+    VNDF_REAL gap = o2 < m2 ? VNDF_FMA(-cos_theta_m, cos_theta_m, o2) : VNDF_FMA(-o.z, o.z, m2);
     // Slopes beyond 2^31 (double: 2^255) have the density 0.
     VNDF_REAL square = o.z < VNDF_R(0.0) ? gap / vndf_impl_max(o2, VNDF_EPSILON * VNDF_EPSILON) : m2;
     VNDF_REAL slope = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))) / z / a;

@@ -14,7 +14,7 @@ VNDF_BEGIN
 // Source: Duff et al., Building an Orthonormal Basis, Revisited, 2017 (its b1): the image of x under the shortest turn from z
 //     to n, for n.z < 0 from -z. No n has a bad basis, but it jumps where n.z changes sign.
 // n: unit vector, any.
-// return: unit vector across n, both to 3 eps; the zero vector for an n beyond the range of numbers.
+// return: unit vector across n, both to 6 eps; the zero vector for an n beyond the range of numbers.
 // Accuracy: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_tangent(VNDF_REAL3 n) {
     VNDF_REAL share = n.x / (VNDF_R(1.0) + vndf_impl_abs(n.z));
@@ -26,7 +26,7 @@ VNDF_FN VNDF_REAL3 vndf_tangent(VNDF_REAL3 n) {
 // Source: this package: w's part across n, (n x w) x n, which keeps its digits where w is near n.
 // n: unit vector.
 // w: any vector of ordinary length (1e-3 to 1e3).
-// return: unit vector across n, both to 3 eps; vndf_tangent(n) where w is along n.
+// return: unit vector across n, both to 6 eps; vndf_tangent(n) where w is along n.
 // Accuracy: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_tangent_along(VNDF_REAL3 n, VNDF_REAL3 w) {
     struct vndf_impl_vector c = vndf_impl_cross(n, w);
@@ -45,7 +45,7 @@ VNDF_FN VNDF_REAL3 vndf_tangent_along(VNDF_REAL3 n, VNDF_REAL3 w) {
 // n, t: unit vectors across each other.
 // return: (x, y, z), as long as w.
 // Accuracy: 1 eps (1 + condition number); double 1.
-//     The length of (x, y), the sine of the angle to n, to 6 eps of itself.
+//     The length of (x, y), the sine of the angle to n, to 10 eps of itself.
 VNDF_FN VNDF_REAL3 vndf_to_local(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL3 t) {
     struct vndf_impl_vector b = vndf_impl_cross(n, t), c = vndf_impl_cross(vndf_impl_next(n, b.x), w);
     VNDF_REAL x = VNDF_FMA(b.x, c.x, VNDF_FMA(b.y, c.y, b.z * c.z)),
@@ -56,7 +56,7 @@ VNDF_FN VNDF_REAL3 vndf_to_local(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL3 t) {
 // The direction that has these coordinates in the frame of n and t.
 // w: any vector, local.
 // n, t: unit vectors across each other.
-// return: w.x t + w.y (n x t) + w.z n, as long as w.
+// return: w.x t + w.y (n x t) + w.z n, as long as w; there and back a unit vector is itself to 10 eps.
 // Accuracy: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_to_world(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL3 t) {
     struct vndf_impl_vector b = vndf_impl_cross(n, t);

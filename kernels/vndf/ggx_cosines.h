@@ -3,11 +3,10 @@
 // Names of ggx.h. A cosine is taken for an exact number, and 1 - c^2 rounded once: each function is as accurate as in a local
 // frame, for the cosine as given. What is lost is lost before, where the cosine is rounded: half a unit, 2^-25 (double: 2^-54),
 // moves
-//     D and the densities by up to 4 / alpha^2 times as much: 12 % at alpha = 1e-3, 0.12 % at 1e-2, 1e-5 at 0.1; below
-//         alpha = 2.4e-4 (double: 1.1e-8) the lobe is narrower than the step from 1 to the next cosine;
-//     G1, G2 and the weight by no more than alpha^2 / 2 times as much, but for grazing directions, where a cosine keeps its
-//         relative precision; sigma alike.
-// frames_test.cpp asserts both. A dot product of float vectors is off by several times 2^-25. With vectors at hand take
+//     D and the densities by up to 4 / alpha^2 times as much: 12 % at alpha = 1e-3, 0.12 % at 1e-2, 1e-5 at 0.1. Below alpha =
+//         3.4e-4 (double: 1.4e-8) the lobe is narrower than the step from 1 to the next cosine;
+//     G1, G2 and the weight by no more than as much, for alpha up to 1.
+// frames_test.cpp asserts both. A dot product of rounded vectors is off by more than half a unit. With vectors at hand take
 // ggx_world.h.
 // cosines: in [-1, 1]; beyond, as rounding makes them, the sine is 0. Of the angles to the macroscopic normal if not said
 //     otherwise.

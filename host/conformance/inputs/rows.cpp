@@ -47,7 +47,9 @@ Direction of_cosine(double cosine) {
 }
 
 // w in a frame about n: the half turn about n + z, or n - z, takes n to the axis.
-Direction about(const Direction& n, const Direction& w) {
+Direction about(Direction n, const Direction& w) {
+    const double size = length(n);
+    for (double& x : n) x /= size;
     const double sign = n[2] < 0 ? -1 : 1, share = dot(n, w) + sign * w[2], twice = share / (1 + sign * n[2]);
     return {twice * n[0] - w[0], twice * n[1] - w[1], dot(n, w)};
 }

@@ -1,7 +1,7 @@
 // Seeded mistakes in impl/beckmann_terms.h: rows of Mutant (mutants.h).
 {"Beckmann: a half vector that faces away without the rounding of its exponent",
  "impl/beckmann_terms.h",
- "away ? -hidden.tail : VNDF_R(0.0)",
+ "away ? hidden.tail : VNDF_R(0.0)",
  "VNDF_R(0.0)",
  "vndf_beckmann_pdf_wi",
  {"pointwise, maximum"}},

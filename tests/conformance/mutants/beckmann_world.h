@@ -1,0 +1,13 @@
+// Seeded mistakes in beckmann_world.h: rows of Mutant (mutants.h).
+{"Beckmann about n: all of a normal's slope across wo",
+ "beckmann_world.h",
+ "vndf_impl_length(i.o.x > VNDF_R(0.0) ? across : m)",
+ "vndf_impl_length(m)",
+ "vndf_beckmann_pdf_wm_world",
+ {"pointwise, maximum", "integral"}},
+    {"Beckmann about n: no Jacobian of the reflection",
+     "beckmann_world.h",
+     "cosine, 0, rise, VNDF_R(0.25),",
+     "cosine, 0, rise, VNDF_R(1.0),",
+     "vndf_beckmann_pdf_wi_world",
+     {"pointwise, maximum", "integral"}},
