@@ -102,8 +102,7 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
     lobe_.alpha_y = alpha_y_ = raised(lobe.alpha_y);
 
     // The plain NDF times the cosine is what a view along the normal sees.
-    Vec3<double> wo = known_.variable == wm_plain ? Vec3<double>{0, 0, 1}
-                                                                   : normalised<double>(vec3(lobe.wo));
+    Vec3<double> wo = known_.variable == wm_plain ? Vec3<double>{0, 0, 1} : normalised<double>(vec3(lobe.wo));
     lobe_.wo = plain(wo);
     Frame<double> f{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (world_) {

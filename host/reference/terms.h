@@ -94,8 +94,10 @@ struct Beckmann {
         const Slopes<R> s = beckmann_slopes(v.across, v.up);
         if (!(s.a < 0)) return visible(m, v);
         // sin^2(theta_m) - cos^2(theta_o), or the same by the other two.
-        const R co = abs(wo.z), gap = m.x < wo.x ? R((m.x - co) * (m.x + co)) : R((wo.x - m.z) * (wo.x + m.z));
-        const R left = gap > 0 ? R(gap / squared(R(m.z * wo.x * v.alpha_x))) : R(0), shift = exponent(m, v.alpha_x, v.alpha_y) - left;
+        const R co = abs(wo.z),
+                gap = m.x < wo.x ? R((m.x - co) * (m.x + co)) : R((wo.x - m.z) * (wo.x + m.z));
+        const R left = gap > 0 ? R(gap / squared(R(m.z * wo.x * v.alpha_x))) : R(0),
+                shift = exponent(m, v.alpha_x, v.alpha_y) - left;
         return ndf(m, v.alpha_x, v.alpha_y, shift) / (v.across * s.weight / 2);
     }
 };

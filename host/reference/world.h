@@ -40,7 +40,8 @@ About<R> about(const Vec3<R>& n, std::initializer_list<Vec3<R>> vectors) {
     Vec3<R> across{parts[0], parts[1], parts[2]};
     const R rest = dot(across, n) / square;
     across = {std::fma(-rest, n.x, across.x), std::fma(-rest, n.y, across.y), std::fma(-rest, n.z, across.z)};
-    return {across, hypotenuse(hypotenuse(across.x, across.y), across.z), product.value() / std::sqrt(square)};
+    return {across, hypotenuse(hypotenuse(across.x, across.y), across.z),
+            product.value() / std::sqrt(square)};
 }
 // As a direction of the local frame whose azimuth does not matter.
 template <class R>
@@ -89,7 +90,8 @@ Vec3<R> tangent(const Vec3<R>& normal) {
     const R sine = hypotenuse(axis.x, axis.y);
     if (!(sine > 0)) return x;
     const Vec3<R> k = scaled<R>(axis, 1 / sine), kx = cross(k, x);
-    const R angle = std::atan2(sine, std::abs(n.z)), s = std::sin(angle), versine = 2 * squared(R(std::sin(angle / 2)));
+    const R angle = std::atan2(sine, std::abs(n.z)), s = std::sin(angle),
+            versine = 2 * squared(R(std::sin(angle / 2)));
     const Vec3<R> across = cross(k, kx);
     return {x.x + s * kx.x + versine * across.x, x.y + s * kx.y + versine * across.y,
             x.z + s * kx.z + versine * across.z};

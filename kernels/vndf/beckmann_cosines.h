@@ -66,7 +66,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_
 // cos_theta_o, cos_theta_i: n . wo, n . wi.
 // return: in [0, 1]; 0 unless both are positive.
 // Accuracy: 8 eps; double 8.
-VNDF_FN VNDF_REAL vndf_beckmann_weight_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_theta_i, VNDF_REAL alpha) {
+VNDF_FN VNDF_REAL vndf_beckmann_weight_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_theta_i,
+                                               VNDF_REAL alpha) {
     VNDF_REAL3 o = vndf_impl_of_cosine(cos_theta_o);
     return vndf_beckmann_weight(o, vndf_impl_of_next_cosine(cos_theta_i, o), VNDF_MAKE2(alpha, alpha));
 }
@@ -95,9 +96,8 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible_cosines(VNDF_REAL3 o, VNDF_REAL cos
 // Accuracy: 12 eps (1 + 2 q); double 13.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_theta_m,
                                                VNDF_REAL wo_dot_wm, VNDF_REAL alpha) {
-    VNDF_REAL pdf =
-        vndf_impl_beckmann_visible_cosines(vndf_impl_of_cosine(cos_theta_o), cos_theta_m,
-                                           vndf_impl_max(wo_dot_wm, VNDF_R(0.0)), alpha);
+    VNDF_REAL pdf = vndf_impl_beckmann_visible_cosines(vndf_impl_of_cosine(cos_theta_o), cos_theta_m,
+                                                       vndf_impl_max(wo_dot_wm, VNDF_R(0.0)), alpha);
     return cos_theta_m > VNDF_R(0.0) && wo_dot_wm > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
@@ -107,7 +107,8 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_cosines(VNDF_REAL cos_theta_o, VNDF_REAL 
 // cos_theta_m: n . wm, wm the half vector of wo and wi.
 // return: per steradian of wi; 0 for cos_theta_m <= 0.
 // Accuracy: 15 eps (1 + 2 q); double 14.
-VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_theta_m, VNDF_REAL alpha) {
+VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_cosines(VNDF_REAL cos_theta_o, VNDF_REAL cos_theta_m,
+                                               VNDF_REAL alpha) {
     VNDF_REAL pdf = vndf_impl_beckmann_visible_cosines(vndf_impl_of_cosine(cos_theta_o), cos_theta_m,
                                                        VNDF_R(0.25), alpha);
     return cos_theta_m > VNDF_R(0.0) ? pdf : VNDF_R(0.0);

@@ -56,7 +56,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1_world(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL a
 // Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
     VNDF_REAL3 o = vndf_impl_about(n, wo);
-    return vndf_beckmann_g2(o, vndf_impl_about(vndf_impl_next(n, o.x), wi), VNDF_MAKE2(alpha, alpha));
+    return vndf_beckmann_g2(o, vndf_impl_about(vndf_impl_next(n, o), wi), VNDF_MAKE2(alpha, alpha));
 }
 
 // The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_beckmann_pdf_wi_world of a perfectly conducting mirror.
@@ -66,10 +66,10 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3
 // Accuracy: 8 eps; double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_weight_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
     VNDF_REAL3 o = vndf_impl_about(n, wo);
-    return vndf_beckmann_weight(o, vndf_impl_about(vndf_impl_next(n, o.x), wi), VNDF_MAKE2(alpha, alpha));
+    return vndf_beckmann_weight(o, vndf_impl_about(vndf_impl_next(n, o), wi), VNDF_MAKE2(alpha, alpha));
 }
 
-// wo about n, and the unit vector along n x wo, 0 where wo has no azimuth.
+// wo about n, and the unit vector along n x wo, x where wo has no azimuth.
 struct vndf_impl_view_about {
     VNDF_REAL3 o;
     struct vndf_impl_vector axis;
@@ -77,20 +77,21 @@ struct vndf_impl_view_about {
 VNDF_FN struct vndf_impl_view_about vndf_impl_view_about_of(VNDF_REAL3 n, VNDF_REAL3 wo) {
     struct vndf_impl_vector c = vndf_impl_cross(n, wo);
     VNDF_REAL sine = vndf_impl_length(c), rcp = VNDF_R(1.0) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
-    struct vndf_impl_view_about i = {
-        vndf_impl_upright(sine, vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z), n, wo),
-        {c.x * rcp, c.y * rcp, c.z * rcp}};
-    return i;
+    struct vndf_impl_view_about v = {
+        vndf_impl_upright(sine, vndf_impl_dot(n.x, n.y, n.z, wo.x, wo.y, wo.z), n, wo),
+        {sine > VNDF_R(0.0) ? c.x * rcp : VNDF_R(1.0), c.y * rcp, c.z * rcp}};
+    return v;
 }
 
 // A normal in the local frame whose x axis is wo's part across n, by its cross product m with n and its z.
-VNDF_FN VNDF_REAL3 vndf_impl_normal_of(struct vndf_impl_view_about i, struct vndf_impl_vector m, VNDF_REAL z) {
-    struct vndf_impl_vector e = i.axis, across;
+VNDF_FN VNDF_REAL3 vndf_impl_normal_of(struct vndf_impl_view_about v, struct vndf_impl_vector m,
+                                       VNDF_REAL z) {
+    struct vndf_impl_vector e = v.axis, across;
+    VNDF_REAL x = VNDF_FMA(e.x, m.x, VNDF_FMA(e.y, m.y, e.z * m.z));
     across.x = VNDF_FMA(e.y, m.z, -e.z * m.y);
     across.y = VNDF_FMA(e.z, m.x, -e.x * m.z);
     across.z = VNDF_FMA(e.x, m.y, -e.y * m.x);
-    VNDF_REAL x = VNDF_FMA(e.x, m.x, VNDF_FMA(e.y, m.y, e.z * m.z));
-    return VNDF_MAKE3(x, vndf_impl_length(i.o.x > VNDF_R(0.0) ? across : m), z);
+    return VNDF_MAKE3(x, vndf_impl_length(across), z);
 }
 
 // The distribution of visible normals about n.
@@ -100,14 +101,15 @@ VNDF_FN VNDF_REAL3 vndf_impl_normal_of(struct vndf_impl_view_about i, struct vnd
 // return: per steradian of wm; 0 for wm . n <= 0 or wo . wm <= 0.
 // Accuracy: 12 eps (1 + 2 q); double 13.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wm, VNDF_REAL alpha) {
-    struct vndf_impl_view_about i = vndf_impl_view_about_of(n, wo);
-    VNDF_REAL3 next = vndf_impl_next(n, i.o.x);
-    VNDF_REAL3 m = vndf_impl_normal_of(i, vndf_impl_cross(next, wm),
+    struct vndf_impl_view_about v = vndf_impl_view_about_of(n, wo);
+    VNDF_REAL3 next = vndf_impl_next(n, v.o);
+    VNDF_REAL3 m = vndf_impl_normal_of(v, vndf_impl_cross(next, wm),
                                        vndf_impl_dot(next.x, next.y, next.z, wm.x, wm.y, wm.z));
-    VNDF_REAL cosine = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
+    VNDF_REAL3 last = vndf_impl_next(wo, m);
+    VNDF_REAL cosine = vndf_impl_dot(last.x, last.y, last.z, wm.x, wm.y, wm.z);
     VNDF_REAL z = vndf_impl_beckmann_height(m.z), rise = VNDF_R(1.0) / (z * z);
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(
-        i.o, m.x, m.y, z, cosine, 0, rise, vndf_impl_max(cosine, VNDF_R(0.0)), VNDF_MAKE2(alpha, alpha));
+    VNDF_REAL pdf = vndf_impl_beckmann_visible(v.o, m.x, m.y, z, cosine, 0, rise,
+                                               vndf_impl_max(cosine, VNDF_R(0.0)), VNDF_MAKE2(alpha, alpha));
     return m.z > VNDF_R(0.0) && cosine > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }
 
@@ -119,14 +121,14 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_R
 // Accuracy: 15 eps (1 + 2 q); double 14.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
-    struct vndf_impl_view_about i = vndf_impl_view_about_of(n, wo);
+    struct vndf_impl_view_about v = vndf_impl_view_about_of(n, wo);
     struct vndf_impl_half_sum sum = vndf_impl_half_sum_of(wo, wi);
-    VNDF_REAL3 next = vndf_impl_next(n, i.o.x);
-    VNDF_REAL3 h = vndf_impl_normal_of(i, vndf_impl_half_cross(next, sum), vndf_impl_half_dot(next, sum));
+    VNDF_REAL3 next = vndf_impl_next(n, v.o);
+    VNDF_REAL3 h = vndf_impl_normal_of(v, vndf_impl_half_cross(next, sum), vndf_impl_half_dot(next, sum));
     VNDF_REAL height = vndf_impl_beckmann_height(h.z), tx = h.x / height, ty = h.y / height;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
     VNDF_REAL cosine = h.z > VNDF_R(0.0) ? vndf_impl_half_dot(wo, sum) : VNDF_R(0.0);
-    VNDF_REAL pdf = vndf_impl_beckmann_visible(i.o, h.x, h.y, height, cosine, 0, rise, VNDF_R(0.25),
+    VNDF_REAL pdf = vndf_impl_beckmann_visible(v.o, h.x, h.y, height, cosine, 0, rise, VNDF_R(0.25),
                                                VNDF_MAKE2(alpha, alpha));
     return h.z > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
 }

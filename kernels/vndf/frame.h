@@ -47,7 +47,7 @@ VNDF_FN VNDF_REAL3 vndf_tangent_along(VNDF_REAL3 n, VNDF_REAL3 w) {
 // Accuracy: 1 eps (1 + condition number); double 1.
 //     The length of (x, y), the sine of the angle to n, to 10 eps of itself.
 VNDF_FN VNDF_REAL3 vndf_to_local(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL3 t) {
-    struct vndf_impl_vector b = vndf_impl_cross(n, t), c = vndf_impl_cross(vndf_impl_next(n, b.x), w);
+    struct vndf_impl_vector b = vndf_impl_cross(n, t), c = vndf_impl_cross(n, w);
     VNDF_REAL x = VNDF_FMA(b.x, c.x, VNDF_FMA(b.y, c.y, b.z * c.z)),
               y = -VNDF_FMA(t.x, c.x, VNDF_FMA(t.y, c.y, t.z * c.z));
     return vndf_impl_bounded_vector(x, y, vndf_impl_dot(n.x, n.y, n.z, w.x, w.y, w.z), n, w);

@@ -55,7 +55,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g1_world(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL alpha)
 // Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_ggx_g2_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
     VNDF_REAL3 o = vndf_impl_about(n, wo);
-    return vndf_ggx_g2(o, vndf_impl_about(vndf_impl_next(n, o.x), wi), VNDF_MAKE2(alpha, alpha));
+    return vndf_ggx_g2(o, vndf_impl_about(vndf_impl_next(n, o), wi), VNDF_MAKE2(alpha, alpha));
 }
 
 // The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi_world of a perfectly conducting mirror.
@@ -65,7 +65,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, 
 // Accuracy: 8 eps; double 8.
 VNDF_FN VNDF_REAL vndf_ggx_weight_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
     VNDF_REAL3 o = vndf_impl_about(n, wo);
-    return vndf_ggx_weight(o, vndf_impl_about(vndf_impl_next(n, o.x), wi), VNDF_MAKE2(alpha, alpha));
+    return vndf_ggx_weight(o, vndf_impl_about(vndf_impl_next(n, o), wi), VNDF_MAKE2(alpha, alpha));
 }
 
 // The distribution of visible normals about n: the density of vndf_ggx_sample_wm_benyoub2024.
@@ -99,7 +99,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wi, VNDF_REAL alpha) {
     VNDF_REAL a = vndf_impl_alpha(alpha);
-    VNDF_REAL3 o = vndf_impl_about(n, wo), next = vndf_impl_next(n, o.x);
+    VNDF_REAL3 o = vndf_impl_about(n, wo), next = vndf_impl_next(n, o);
     struct vndf_impl_half_sum sum = vndf_impl_half_sum_of(wo, wi);
     VNDF_REAL3 m = vndf_impl_upright(vndf_impl_length(vndf_impl_half_cross(next, sum)),
                                      vndf_impl_half_dot(next, sum), n, wi);

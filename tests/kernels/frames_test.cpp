@@ -63,7 +63,10 @@ long double sine_of(const Direction& a, const Direction& b) {
     long double square = 0;
     for (int k = 0; k < 3; ++k) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        const long double c = static_cast<long double>(a[i]) * b[j] - static_cast<long double>(a[j]) * b[i];
+        const long double x = a[i], y = a[j], product = y * b[i];
+        // With what the products round off.
+        const long double c = std::fma(x, static_cast<long double>(b[j]), -product) +
+                              std::fma(-y, static_cast<long double>(b[i]), product);
         square += c * c;
     }
     return std::sqrt(square);
@@ -159,7 +162,8 @@ TEST_CASE("local directions keep small angles to the normal, and there and back 
             sine = std::max(sine, relative(std::hypot(l[0], l[1])));
             for (int k = 0; k < 3; ++k) away = std::max(away, std::abs(h[k] - d[k]));
             // It can fail: dot products with t and n x t.
-            const Direction b{m[1] * x[2] - m[2] * x[1], m[2] * x[0] - m[0] * x[2], m[0] * x[1] - m[1] * x[0]};
+            const Direction b{m[1] * x[2] - m[2] * x[1], m[2] * x[0] - m[0] * x[2],
+                              m[0] * x[1] - m[1] * x[0]};
             plain = std::max(plain, relative(std::hypot(conformance::rounded(dot(x, d), real),
                                                         conformance::rounded(dot(b, d), real))));
         }
@@ -188,12 +192,14 @@ TEST_CASE("y up: the recipe draws from the lobe whose alphas lie along x and z")
             const float up = wi.y + 1;  // the half vector is wi + y
             x.push_back(std::abs(wi.x / up)), z.push_back(std::abs(wi.z / up));
         }
-        for (auto* slopes : {&x, &z}) std::nth_element(slopes->begin(), slopes->begin() + 10000, slopes->end());
+        for (auto* slopes : {&x, &z})
+            std::nth_element(slopes->begin(), slopes->begin() + 10000, slopes->end());
         return vndf_float2{x[10000], z[10000]};
     };
     const auto off = [&](vndf_float2 alpha, float alpha_x, float alpha_z) {
         const vndf_float2 m = medians(alpha);
-        return std::max(std::abs(m.x / alpha_x * std::sqrt(3.f) - 1), std::abs(m.y / alpha_z * std::sqrt(3.f) - 1));
+        return std::max(std::abs(m.x / alpha_x * std::sqrt(3.f) - 1),
+                        std::abs(m.y / alpha_z * std::sqrt(3.f) - 1));
     };
     CHECK(off({0.5f, 0.1f}, 0.5f, 0.1f) < 0.05);
     CHECK(off({0.1f, 0.5f}, 0.5f, 0.1f) > 0.5);  // it can fail: turned by 90 degrees
@@ -201,7 +207,8 @@ TEST_CASE("y up: the recipe draws from the lobe whose alphas lie along x and z")
     // The density is that of the rotation of y to z, which is no mirror.
     Random random;
     for (int i = 0; i < 1000; ++i) {
-        const vndf_float3 wo = rounded(random.direction()), wi = reflection_y_up(wo, {0.5f, 0.1f}, random.u());
+        const vndf_float3 wo = rounded(random.direction()),
+                          wi = reflection_y_up(wo, {0.5f, 0.1f}, random.u());
         const auto turned = [](vndf_float3 w) { return vndf_float3{w.x, -w.z, w.y}; };
         const float pdf = pdf_y_up(wo, wi, {0.5f, 0.1f});
         CHECK(pdf > 0);
@@ -222,7 +229,8 @@ TEST_CASE("normal and tangent: the recipe is the local sampler in another frame"
             vndf_to_world(vndf_reflect(local, vndf_ggx_sample_wm_dupuy2023(local, alpha, u)), n, t);
         const vndf_float3 b = vndf_to_world({0, 1, 0}, n, t);
         // An interpolated tangent: longer, and not across n.
-        const vndf_float3 leaning = {1.5f * t.x + 0.3f * n.x, 1.5f * t.y + 0.3f * n.y, 1.5f * t.z + 0.3f * n.z};
+        const vndf_float3 leaning = {1.5f * t.x + 0.3f * n.x, 1.5f * t.y + 0.3f * n.y,
+                                     1.5f * t.z + 0.3f * n.z};
         const auto distance = [&](vndf_float3 wi) {
             return std::hypot(wi.x - expected.x, wi.y - expected.y, wi.z - expected.z);
         };
@@ -241,7 +249,8 @@ TEST_CASE("two sides: the recipe sees the same surface from below") {
     for (int i = 0; i < 2000; ++i) {
         const vndf_float3 wo = rounded(random.direction()), image = {wo.x, wo.y, -wo.z};
         const vndf_float2 alpha = {0.3f, 0.3f}, u = random.u();
-        const vndf_float3 wi = reflection_two_sided(wo, alpha, u), wi_image = reflection_two_sided(image, alpha, u);
+        const vndf_float3 wi = reflection_two_sided(wo, alpha, u),
+                          wi_image = reflection_two_sided(image, alpha, u);
         CHECK((wi.x == wi_image.x && wi.y == wi_image.y && wi.z == -wi_image.z));
         const float pdf = pdf_two_sided(wo, wi, alpha);
         CHECK(pdf > 0);
@@ -267,7 +276,8 @@ TEST_CASE("a rounded cosine costs D and the densities 4 / alpha^2 half units, ma
     constexpr double half_unit = 0x1p-25;
     Random random;
     // GGX's D is steepest at the peak; Beckmann's moves by half as much, anywhere in the lobe.
-    for (const auto& [name, times] : {std::pair{"vndf_ggx_ndf_cosines", 4.}, {"vndf_beckmann_ndf_cosines", 2.}})
+    for (const auto& [name, times] :
+         {std::pair{"vndf_ggx_ndf_cosines", 4.}, {"vndf_beckmann_ndf_cosines", 2.}})
         for (const double alpha : {1e-3, 1e-2, 0.1}) {
             double worst = 0;
             for (int i = 0; i < 20000; ++i) {
@@ -282,13 +292,16 @@ TEST_CASE("a rounded cosine costs D and the densities 4 / alpha^2 half units, ma
         }
     double worst = 0;
     for (int i = 0; i < 20000; ++i) {
-        const double o = random.uniform(1e-3, 1), c = random.uniform(1e-3, 1), alpha = random.uniform(1e-3, 1);
+        const double o = random.uniform(1e-3, 1), c = random.uniform(1e-3, 1),
+                     alpha = random.uniform(1e-3, 1);
         for (const std::string ndf : {"ggx", "beckmann"})
             for (const char* term : {"g2", "weight"}) {
                 const std::string name = "vndf_" + ndf + "_" + term + "_cosines";
                 const double at = value(name.c_str(), {o, c, alpha});
-                worst = std::max(worst, std::abs(value(name.c_str(), {o * (1 - half_unit), c, alpha}) / at - 1));
-                worst = std::max(worst, std::abs(value(name.c_str(), {o, c * (1 - half_unit), alpha}) / at - 1));
+                worst =
+                    std::max(worst, std::abs(value(name.c_str(), {o * (1 - half_unit), c, alpha}) / at - 1));
+                worst =
+                    std::max(worst, std::abs(value(name.c_str(), {o, c * (1 - half_unit), alpha}) / at - 1));
             }
     }
     CHECK(worst <= 1.01 * half_unit);

@@ -149,14 +149,15 @@ TEST_CASE("NaN in a direction is not hidden by a term") {
 
 TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
     for (const Real real : reals)
-        for (const char* name :
-             {"vndf_ggx_g2", "vndf_ggx_g2_separable", "vndf_beckmann_g2", "vndf_beckmann_g2_separable",
-              "vndf_ggx_g2_world", "vndf_beckmann_g2_world", "vndf_ggx_g2_cosines",
-              "vndf_beckmann_g2_cosines"}) {
+        for (const char* name : {"vndf_ggx_g2", "vndf_ggx_g2_separable", "vndf_beckmann_g2",
+                                 "vndf_beckmann_g2_separable", "vndf_ggx_g2_world", "vndf_beckmann_g2_world",
+                                 "vndf_ggx_g2_cosines", "vndf_beckmann_g2_cosines"}) {
             const Function& g2 = *find_function(name);
             const Table rows = digest_inputs(g2, std::size_t{1} << 14, real);
             Table exchanged = rows;
-            for (const auto& [o, i] : {std::pair{"wo_x", "wi_x"}, {"wo_y", "wi_y"}, {"wo_z", "wi_z"},
+            for (const auto& [o, i] : {std::pair{"wo_x", "wi_x"},
+                                       {"wo_y", "wi_y"},
+                                       {"wo_z", "wi_z"},
                                        {"cos_theta_o", "cos_theta_i"}})
                 if (column(g2, o) >= 0)
                     std::swap(exchanged.columns[column(g2, o)], exchanged.columns[column(g2, i)]);

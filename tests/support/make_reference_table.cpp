@@ -707,7 +707,9 @@ std::map<std::string, Evaluation> evaluations() {
             all[prefix + term + "_world"] = [=](const Reals& in) {
                 return f(local(about(vec(in, 3), vec(in, 0)), in[6]));
             };
-            all[prefix + term + "_cosines"] = [=](const Reals& in) { return f(local(of_cosine(in[0]), in[1])); };
+            all[prefix + term + "_cosines"] = [=](const Reals& in) {
+                return f(local(of_cosine(in[0]), in[1]));
+            };
         }
         for (const char* term : {"g2", "weight"}) {
             const Evaluation f = all[prefix + term];
@@ -1062,7 +1064,8 @@ void frames(Table& table) {
                                  {0.3, -0.9, 0.1}, {0, 1, 0},  {1e-6, 0, -1},  {-0.5, 0.5, -1e-9}};
     const double slopes[][2] = {{0.3, -0.7}, {2, 1}, {-0.01, 0.02}, {-1.5, -0.4}, {0.6, 0.1}};
     std::size_t k = 0;
-    for (const Lobe& l : {lobes[0], lobes[3], lobes[2], back_lobes[3], lobes[1], lobes[11], back_lobes[2], lobes[4]}) {
+    for (const Lobe& l :
+         {lobes[0], lobes[3], lobes[2], back_lobes[3], lobes[1], lobes[11], back_lobes[2], lobes[4]}) {
         const auto& given = normals[k % std::size(normals)];
         const auto& s = slopes[k % std::size(slopes)];
         const double size = std::sqrt(given[0] * given[0] + given[1] * given[1] + given[2] * given[2]);
@@ -1077,7 +1080,8 @@ void frames(Table& table) {
         direction(l, o);
         const double across = std::hypot(o[0], o[1]), ex = across > 0 ? o[0] / across : 1,
                      ey = across > 0 ? o[1] / across : 0;
-        const double towards = l.cos_theta < 0 ? -l.cos_theta / (l.ax * across) * 1.0001 + 0.2 : 0.5 + 0.3 * s[0];
+        const double towards =
+            l.cos_theta < 0 ? -l.cos_theta / (l.ax * across) * 1.0001 + 0.2 : 0.5 + 0.3 * s[0];
         normal({l.cos_theta, l.phi, l.ax, l.ax}, towards * ex - s[1] * ey, towards * ey + s[1] * ex, m);
         const Double3 wo = turned(o), wm = turned(m), t = turned({1, 0, 0});
         const double c = dot_of(wo, wm);
@@ -1096,11 +1100,12 @@ void frames(Table& table) {
                 if (world || std::abs(cos_m) < 1 - 1e-9) row("ndf", one(wm, cos_m));
                 if (!world && std::abs(cos_o) > 1 - 1e-9) continue;
                 for (const char* term : {"lambda", "sigma", "g1"}) row(term, one(wo, cos_o));
-                const std::vector<double> two = world ? append({}, {wo, n, wi}, l.ax)
-                                                      : std::vector<double>{cos_o, cos_i, l.ax};
+                const std::vector<double> two =
+                    world ? append({}, {wo, n, wi}, l.ax) : std::vector<double>{cos_o, cos_i, l.ax};
                 for (const char* term : {"g2", "weight"}) row(term, two);
                 if (!world && std::abs(cos_m) > 1 - 1e-9) continue;
-                row("pdf_wm", world ? append({}, {wo, n, wm}, l.ax) : std::vector<double>{cos_o, cos_m, c, l.ax});
+                row("pdf_wm",
+                    world ? append({}, {wo, n, wm}, l.ax) : std::vector<double>{cos_o, cos_m, c, l.ax});
                 row("pdf_wi", world ? two : std::vector<double>{cos_o, cos_m, l.ax});
             }
         }

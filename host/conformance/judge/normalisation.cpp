@@ -19,8 +19,8 @@ struct Nodes {
 };
 
 // Of a density that takes cosines: those of the rule's normals. A density of reflections is integrated over their normals, too.
-void add_cosines(const Function& density, const std::vector<double>& row, const reference::QuadratureRule& rule,
-                 Nodes& result) {
+void add_cosines(const Function& density, const std::vector<double>& row,
+                 const reference::QuadratureRule& rule, Nodes& result) {
     const Direction wo = RowReader(density).local(row.data()).wo;
     const int wo_dot_wm = column(density, "wo_dot_wm");
     result.inputs.columns[column(density, "cos_theta_m")] = rule.z;
@@ -64,8 +64,8 @@ double rounding_share(const Function& density, const Nodes& at, const std::vecto
         double condition = relative_condition(density, evaluation, row.data(), precision(real));
         // In double a lobe may be narrower than a rounding error of float: what one of double changes.
         if (real == Real::f64)
-            condition = std::max(condition, absolute_condition(density, evaluation, row.data(), precision(real),
-                                                               -1, 2 * epsilon(real)) /
+            condition = std::max(condition, absolute_condition(density, evaluation, row.data(),
+                                                               precision(real), -1, 2 * epsilon(real)) /
                                                 values[i]);
         if (!(mass > 0)) continue;
         share += mass * std::min(1.0, epsilon(real) * condition);

@@ -44,7 +44,8 @@ double grazing(const RowReader& reader, const double* row, double unit) {
     if (!reader.has_n()) return 1;
     const Direction n = reader.n(row);
     double lost = 1;
-    for (const auto& [has, w] : {std::pair{true, reader.wo(row)}, {reader.has_wm(), reader.wm(row)},
+    for (const auto& [has, w] : {std::pair{true, reader.wo(row)},
+                                 {reader.has_wm(), reader.wm(row)},
                                  {reader.has_wi(), reader.wi(row)}})
         if (has && dot(n, w) != 0) lost = std::max(lost, unit / std::abs(dot(n, w)));
     return lost;

@@ -82,7 +82,8 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_share(VNDF_REAL l, VNDF_REAL z, struct vndf
     // Powers of two apart: below the horizon l I(a) may be as small as weight.
     // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
     // (impl/stretch.h).
-    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_unseen(l, z) + z : hidden_l), scale;
+    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_unseen(l, z) + z : hidden_l),
+                           scale;
     struct vndf_impl_power least = vndf_impl_split(area.part > VNDF_R(0.0) ? hidden_area : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
     VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;

@@ -14,12 +14,11 @@ VNDF_FN VNDF_REAL vndf_impl_length(struct vndf_impl_vector c) {
     return VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z))) * VNDF_R(7.450580596923828125e-09);
 }
 
-// What is across n and along it; finite for finite vectors of any size, NaN for NaN.
+// What is across n and along it, finite for finite vectors of any size; NaN for NaN across.
 VNDF_FN VNDF_REAL3 vndf_impl_upright(VNDF_REAL across, VNDF_REAL along, VNDF_REAL3 n, VNDF_REAL3 w) {
     VNDF_REAL none = vndf_impl_zero(n.x, n.y, n.z) + vndf_impl_zero(w.x, w.y, w.z);
-    VNDF_REAL bounded = vndf_impl_finite(along);
     return VNDF_MAKE3(vndf_impl_finite(across) + none, VNDF_R(0.0),
-                      vndf_impl_max(bounded, -VNDF_REAL_MAX) + none);
+                      vndf_impl_max(vndf_impl_finite(along), -VNDF_REAL_MAX));
 }
 
 // w about n: the sine is |n x w|, which keeps its digits at every angle. The root of 1 - (n . w)^2 loses those of angles below
@@ -37,11 +36,12 @@ VNDF_FN VNDF_REAL3 vndf_impl_bounded_vector(VNDF_REAL x, VNDF_REAL y, VNDF_REAL 
     return VNDF_MAKE3(finite ? x : none, finite ? y : none, finite ? z : none);
 }
 
-// n for the next direction: made dependent on the one before, which is a number, so that LLVM's SLP pass does not pack the two
-// (impl/stretch.h).
-VNDF_FN VNDF_REAL3 vndf_impl_next(VNDF_REAL3 n, VNDF_REAL before) {
-    int always = before <= VNDF_REAL_MAX;
-    return VNDF_MAKE3(always ? n.x : VNDF_R(0.0), always ? n.y : VNDF_R(0.0), always ? n.z : VNDF_R(1.0));
+// v for the next step: made dependent on all of the one before, which is a number, and each component on another, so that LLVM's
+// SLP pass does not pack the two (impl/stretch.h).
+VNDF_FN VNDF_REAL3 vndf_impl_next(VNDF_REAL3 v, VNDF_REAL3 before) {
+    VNDF_REAL x = before.x + before.z <= VNDF_REAL_MAX ? v.x : VNDF_R(0.0),
+              y = x <= VNDF_REAL_MAX ? v.y : VNDF_R(0.0);
+    return VNDF_MAKE3(x, y, y <= VNDF_REAL_MAX ? v.z : VNDF_R(1.0));
 }
 
 // The half vector h = wo + wi, with what its sums round off: beside n its angle is a matter of their last bits.

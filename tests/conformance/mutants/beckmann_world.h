@@ -1,8 +1,8 @@
 // Seeded mistakes in beckmann_world.h: rows of Mutant (mutants.h).
 {"Beckmann about n: all of a normal's slope across wo",
  "beckmann_world.h",
- "vndf_impl_length(i.o.x > VNDF_R(0.0) ? across : m)",
- "vndf_impl_length(m)",
+ "return VNDF_MAKE3(x, vndf_impl_length(across), z);",
+ "return VNDF_MAKE3(x, vndf_impl_length(m), z);",
  "vndf_beckmann_pdf_wm_world",
  {"pointwise, maximum", "integral"}},
     {"Beckmann about n: no Jacobian of the reflection",
