@@ -108,7 +108,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)).
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 8.
+// Accuracy: 7 eps; double 7.
 VNDF_FN VNDF_REAL vndf_beckmann_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_impl_masking m = vndf_impl_beckmann_masking(wo, wi, alpha);
     return m.above ? vndf_impl_min((m.quarter_o + VNDF_R(0.25)) / m.both, VNDF_R(1.0)) : VNDF_R(0.0);

@@ -36,8 +36,8 @@ VNDF_FN VNDF_REAL3 vndf_impl_bounded_vector(VNDF_REAL x, VNDF_REAL y, VNDF_REAL 
     return VNDF_MAKE3(finite ? x : none, finite ? y : none, finite ? z : none);
 }
 
-// v for the next step: made dependent on all of the one before, which is a number, and each component on another, so that LLVM's
-// SLP pass does not pack the two (impl/stretch.h).
+// v for the next step: made dependent on all of the one before, which is a number, and each component on another, so that
+// LLVM's SLP pass does not pack the two (impl/stretch.h).
 VNDF_FN VNDF_REAL3 vndf_impl_next(VNDF_REAL3 v, VNDF_REAL3 before) {
     VNDF_REAL x = before.x + before.z <= VNDF_REAL_MAX ? v.x : VNDF_R(0.0),
               y = x <= VNDF_REAL_MAX ? v.y : VNDF_R(0.0);
