@@ -184,15 +184,19 @@ VNDF_FN VNDF_REAL vndf_ggx_weight_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi)
     return vndf_impl_ggx_weight(lobe, wi);
 }
 
-VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wm(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm) {
+// cos_om: wo . wm.
+VNDF_FN VNDF_REAL vndf_impl_ggx_visible(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm, VNDF_REAL cos_om) {
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, lobe.alpha_x, lobe.alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_lobe_twice_sigma(lobe);
-    VNDF_REAL cos_om = vndf_impl_dot(lobe.wo_x, lobe.wo_y, lobe.wo_z, wm.x, wm.y, wm.z);
     VNDF_REAL area =
         (VNDF_2_PI / ((q * lobe.alpha_x) * (q * lobe.alpha_y))) * vndf_impl_max(cos_om, VNDF_R(0.0));
     VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_ggx_pdf_wm(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm) {
+    VNDF_REAL cos_om = vndf_impl_dot(lobe.wo_x, lobe.wo_y, lobe.wo_z, wm.x, wm.y, wm.z);
+    return vndf_impl_ggx_visible(lobe, wm, cos_om);
 }
 
 // The distribution of visible normals: the density of every vndf_ggx_sample_wm_* but walter2007.

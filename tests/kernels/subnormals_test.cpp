@@ -49,7 +49,7 @@ class Ordinary {
                 values.push_back(std::floor(uniform(0, 0x1p24)) * 0x1p-24);
             else if (name == "eta")
                 values.push_back(uniform(.4, 2.5));
-            else if (name == "cos_theta")
+            else if (name.rfind("cos_theta", 0) == 0 || name == "wo_dot_wm")
                 values.push_back(uniform(-1, 1));
             else if (name == "x" || name.rfind("slope_", 0) == 0)
                 values.push_back(normal_(engine_));

@@ -14,6 +14,7 @@
 #ifndef VNDF_IMPL_LOBE_H
 #define VNDF_IMPL_LOBE_H
 
+#include "exact.h"
 #include "stretch.h"
 
 VNDF_BEGIN
@@ -65,10 +66,6 @@ struct vndf_ggx_lobe {
 VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
     return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
 }
-
-struct vndf_impl_vector {
-    VNDF_REAL x, y, z;
-};
 
 // e + (x, y), e at azimuth u1 and height z, |e|^2 = square. Where the two nearly cancel, only the rounding of |e| is wrong:
 // |e|^2 - l2 = z (2 z_v - z), or `steep` where that cancels, corrects it.
