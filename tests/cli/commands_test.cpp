@@ -79,6 +79,7 @@ TEST_CASE("every command runs to its end with every option") {
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",
         "policies --help",
+        "policies --only vndf_reflect --quick --flags cycles",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
         lines.insert(lines.end(),

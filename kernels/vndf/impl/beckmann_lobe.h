@@ -39,7 +39,7 @@ VNDF_FN struct vndf_impl_pair vndf_impl_beckmann_square(VNDF_REAL3 wo, VNDF_REAL
 }
 
 // Squares are formed 2^40 times larger: they keep full precision down to wo.x = 1e-19 for every alpha in the domain. l
-// carries the rounding errors of its products along, since a product of two G1 has no units to spare.
+// carries the rounding errors of its products and of the root along, since a product of two G1 has no units to spare.
 VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF_REAL alpha_x,
                                                              VNDF_REAL alpha_y) {
     struct vndf_beckmann_lobe lobe;
@@ -59,6 +59,7 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.ex = tilted ? x * rcp : VNDF_R(1.0);
     lobe.ey = tilted ? y * rcp : VNDF_R(0.0);
     VNDF_REAL low = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
+    low = VNDF_FMA(VNDF_R(0.5), VNDF_FMA(-root, root, square), low);
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
     lobe.rcp_l = tilted ? up * rcp : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
@@ -122,8 +123,10 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_other(struct vndf_beckmann_
 // wi exchanged.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_both(struct vndf_beckmann_lobe o, struct vndf_beckmann_lobe i) {
     VNDF_REAL up = VNDF_R(1099511627776.0), kz_o = up * o.wo_z, kz_i = up * i.wo_z;
-    VNDF_REAL unseen =
-        kz_i * (o.l * vndf_impl_beckmann_hidden(o)) + kz_o * (i.l * vndf_impl_beckmann_hidden(i));
+    VNDF_REAL hidden_o = vndf_impl_beckmann_hidden(o);
+    // Made dependent on wo's, which is positive, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
+    i.rcp_l = hidden_o > VNDF_R(0.0) ? i.rcp_l : VNDF_R(0.0);
+    VNDF_REAL unseen = kz_i * (o.l * hidden_o) + kz_o * (i.l * vndf_impl_beckmann_hidden(i));
     return kz_o * i.wo_z + unseen;
 }
 

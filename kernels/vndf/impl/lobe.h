@@ -30,8 +30,9 @@ struct vndf_impl_axis {
 
 // What stands for l = 0: nothing beside r + z, and not lost below the surface.
 VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
-    VNDF_REAL above = VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10);
-    return z >= VNDF_R(0.0) ? above : VNDF_R(8.67361737988403547e-19);
+    return z < VNDF_R(0.0)
+               ? VNDF_R(8.67361737988403547e-19)
+               : (VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10));
 }
 
 VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
