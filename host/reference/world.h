@@ -101,9 +101,10 @@ Vec3<R> tangent_along(const Vec3<R>& n, const Vec3<R>& w) {
     const About<R> a = about(n, {w});
     return a.sine > 0 ? scaled<R>(a.across, 1 / a.sine) : tangent(n);
 }
+// t . w; of vectors that are not quite unit or across each other (n x t) . (n x w), by Lagrange's identity.
 template <class R>
 Vec3<R> to_frame(const Vec3<R>& w, const Vec3<R>& n, const Vec3<R>& t) {
-    return {dot(t, w), dot(cross(n, t), w), dot(n, w)};
+    return {dot(n, n) * dot(t, w) - dot(n, t) * dot(n, w), dot(cross(n, t), w), dot(n, w)};
 }
 template <class R>
 Vec3<R> from_frame(const Vec3<R>& w, const Vec3<R>& n, const Vec3<R>& t) {

@@ -763,7 +763,7 @@ std::map<std::string, Evaluation> evaluations() {
     };
     all["vndf_to_local"] = [](const Reals& in) {
         const Vec w = vec(in, 0), n = vec(in, 3), t = vec(in, 6);
-        return list(Vec{dot(w, t), dot(w, cross(n, t)), dot(w, n)});
+        return list(Vec{dot(cross(n, t), cross(n, w)), -dot(t, cross(n, w)), dot(w, n)});
     };
     all["vndf_to_world"] = [](const Reals& in) {
         const Vec w = vec(in, 0), n = vec(in, 3), t = vec(in, 6);
