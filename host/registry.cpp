@@ -141,6 +141,14 @@ double side_bound() {
     return VNDF_BOUND_SIDE;
 }
 
+double tangent_bound() {
+    return VNDF_BOUND_TANGENT;
+}
+
+double frame_bound() {
+    return VNDF_BOUND_FRAME;
+}
+
 const Function* find_function(std::string_view name) {
     static const auto by_name = [] {
         std::unordered_map<std::string_view, const Function*> map;

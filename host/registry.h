@@ -32,6 +32,10 @@ struct Bounds {
 // Of every sampler, in those units: how far the length of a "WM" or "WI" is from 1, and how far a normal is on the wrong side.
 double length_bound(std::string_view result);
 double side_bound();
+// Of frames: the length of a tangent and its cosine with n; the sine of the angle to n in local space, relative, and the way
+// there and back.
+double tangent_bound();
+double frame_bound();
 
 struct Function {
     std::string name;       // with the suffix _with_pdf for that form of a sampler

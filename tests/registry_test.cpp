@@ -23,6 +23,17 @@ TEST_CASE("a function takes the scalars that its arguments stand for, in their o
         {"WO_WI_ALPHA", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
         {"WO_WM_ALPHA", {"wo_x", "wo_y", "wo_z", "wm_x", "wm_y", "wm_z", "alpha_x", "alpha_y"}},
         {"WO_N_WM_ALPHA1", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "wm_x", "wm_y", "wm_z", "alpha"}},
+        {"W_N_ALPHA1", {"w_x", "w_y", "w_z", "n_x", "n_y", "n_z", "alpha"}},
+        {"WM_N_ALPHA1", {"wm_x", "wm_y", "wm_z", "n_x", "n_y", "n_z", "alpha"}},
+        {"WO_N_WI_ALPHA1", {"wo_x", "wo_y", "wo_z", "n_x", "n_y", "n_z", "wi_x", "wi_y", "wi_z", "alpha"}},
+        {"COS_ALPHA1", {"cos_theta", "alpha"}},
+        {"COS_M_ALPHA1", {"cos_theta_m", "alpha"}},
+        {"COS_O_I_ALPHA1", {"cos_theta_o", "cos_theta_i", "alpha"}},
+        {"COS_O_M_ALPHA1", {"cos_theta_o", "cos_theta_m", "alpha"}},
+        {"COS_O_M_OM_ALPHA1", {"cos_theta_o", "cos_theta_m", "wo_dot_wm", "alpha"}},
+        {"N", {"n_x", "n_y", "n_z"}},
+        {"N_W", {"n_x", "n_y", "n_z", "w_x", "w_y", "w_z"}},
+        {"W_N_T", {"w_x", "w_y", "w_z", "n_x", "n_y", "n_z", "t_x", "t_y", "t_z"}},
         {"CONIC2026_LOBE_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
         {"CONIC2026_LOBE_WI", {"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"}},
         {"LOBE_U", {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2"}},
@@ -60,6 +71,8 @@ TEST_CASE("a function returns a direction, a value or two, and with_pdf a densit
         Names expected = {"value"};
         if (f.result == "WM") expected = {"wm_x", "wm_y", "wm_z"};
         if (f.result == "WI") expected = {"wi_x", "wi_y", "wi_z"};
+        if (f.result == "T") expected = {"t_x", "t_y", "t_z"};
+        if (f.result == "V") expected = {"v_x", "v_y", "v_z"};
         if (f.result == "U") expected = {"u1", "u2"};
         if (f.result == "PDF_BOTH") expected = {"pdf", "pdf_back"};
         if (f.result == "EVAL_PDF") expected = {"value", "pdf"};

@@ -122,8 +122,8 @@ std::string introduction(const Options& options) {
     std::string out = "//\n" + commented(licence_files().at(0).text) + "//\n";
     out += commented(fmt::format(
         "wo, wi: view and light direction, wm: normal of the microfacet; unit vectors away from the surface, "
-        "z along its normal. alpha: no perceptual roughness. u: uniform in [0, 1]. eps: {}. VNDF_FN, how "
-        "functions are declared, may be set before.",
+        "z along its normal. alpha: no perceptual roughness. u: uniform in [0, 1]. eps: {}. VNDF_FN may "
+        "be set before.",
         options.real == runtime::Real::f32 ? "2^-24" : "2^-53"));
     return out;
 }

@@ -74,9 +74,7 @@ std::string vector(const Options& options, const std::string& members, int size)
 // The call's arguments, out of the row a.
 std::string arguments(const Function& function, const Options& options) {
     const auto named = [&](const std::string& name) {
-        const std::size_t size = name == "wo" || name == "wi" || name == "wm" || name == "n" ||
-                                         (name == "w" && conformance::column(function, "w_x") >= 0)
-                                     ? 3
+        const std::size_t size = conformance::column(function, name + "_z") >= 0 ? 3
                                  : name == "u" || name == "slope" ||
                                          (name == "alpha" && conformance::column(function, "alpha") < 0)
                                      ? 2

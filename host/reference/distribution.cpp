@@ -32,12 +32,26 @@ Sample<double> beckmann_reflection(const Arguments<double>& in) {
     return {reflect(in.wo, beckmann_jakob2014(in).direction), 0};
 }
 
+Sample<double> ggx_reflection_about_n(const Arguments<double>& in) {
+    return {reflect(in.wo, ggx_benyoub2024(in).direction), 0};
+}
+// In a frame of n.
+Sample<double> beckmann_about_n(const Arguments<double>& in) {
+    const Frame<double> f = frame(in.n);
+    Arguments<double> local = in;
+    local.wo = to_local(f, in.wo);
+    return {to_world(f, beckmann_jakob2014(local).direction), 0};
+}
+Sample<double> beckmann_reflection_about_n(const Arguments<double>& in) {
+    return {reflect(in.wo, beckmann_about_n(in).direction), 0};
+}
+
 }  // namespace
 
 struct Distribution::Known {
     std::string_view density;
     Kind kind;  // in front of the surface
-    enum class Variable { wm, wm_world, wm_plain, wi } variable;
+    enum class Variable { wm, wm_world, wm_plain, wi, wi_world } variable;
     Sample<double> (*map)(const Arguments<double>&);  // draws from it
     bool polygon = false;                             // the bound of the cap
 };
@@ -61,6 +75,15 @@ const Distribution::Known& Distribution::known(std::string_view density) {
         {"vndf_beckmann_pdf_wm_lobe", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wi", Kind::beckmann, wi, beckmann_reflection},
         {"vndf_beckmann_pdf_wi_lobe", Kind::beckmann, wi, beckmann_reflection},
+        {"vndf_ggx_pdf_wm_world", Kind::ggx, wm_world, ggx_benyoub2024<double>},
+        {"vndf_ggx_pdf_wi_world", Kind::ggx, wi_world, ggx_reflection_about_n},
+        // By cosines the normals stand for the reflections.
+        {"vndf_ggx_pdf_wm_cosines", Kind::ggx, wm, ggx_dupuy2023<double>},
+        {"vndf_ggx_pdf_wi_cosines", Kind::ggx, wm, ggx_dupuy2023<double>},
+        {"vndf_beckmann_pdf_wm_world", Kind::beckmann, wm_world, beckmann_about_n},
+        {"vndf_beckmann_pdf_wi_world", Kind::beckmann, wi_world, beckmann_reflection_about_n},
+        {"vndf_beckmann_pdf_wm_cosines", Kind::beckmann, wm, beckmann_jakob2014<double>},
+        {"vndf_beckmann_pdf_wi_cosines", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wm_walter2007", Kind::beckmann, wm_plain, beckmann_walter2007<double>},
     };
     const auto at =
@@ -71,8 +94,9 @@ const Distribution::Known& Distribution::known(std::string_view density) {
 
 Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision precision)
     : known_(known(density)), precision_(precision), lobe_(lobe) {
-    reflected_ = known_.variable == Known::Variable::wi;
-    world_ = known_.variable == Known::Variable::wm_world;
+    using enum Known::Variable;
+    reflected_ = known_.variable == wi || known_.variable == wi_world;
+    world_ = known_.variable == wm_world || known_.variable == wi_world;
     const auto raised = [&](double a) {
         return std::max(a, precision == Precision::f32 ? double(1e-8f) : 1e-8);
     };
@@ -80,8 +104,7 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
     lobe_.alpha_y = alpha_y_ = raised(lobe.alpha_y);
 
     // The plain NDF times the cosine is what a view along the normal sees.
-    Vec3<double> wo = known_.variable == Known::Variable::wm_plain ? Vec3<double>{0, 0, 1}
-                                                                   : normalised<double>(vec3(lobe.wo));
+    Vec3<double> wo = known_.variable == wm_plain ? Vec3<double>{0, 0, 1} : normalised<double>(vec3(lobe.wo));
     lobe_.wo = plain(wo);
     Frame<double> f{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     if (world_) {

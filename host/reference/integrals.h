@@ -72,10 +72,10 @@ inline Vec3d rotate(const std::array<Vec3d, 3>& rows, double x, double y, double
 
 // The direction, or the half vector of a reflected one, in the local frame, of any length.
 inline Vec3d Distribution::half(double x, double y, double z) const {
-    if (world_) return rotate(frame_, x, y, z);
-    if (!reflected_) return {x, y, z};
-    const double rcp = 1 / std::sqrt(x * x + y * y + z * z);  // of a rounded unit vector
-    return {wo_.x + x * rcp, wo_.y + y * rcp, wo_.z + z * rcp};
+    const Vec3d w = world_ ? rotate(frame_, x, y, z) : Vec3d{x, y, z};
+    if (!reflected_) return w;
+    const double rcp = 1 / std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);  // of a rounded unit vector
+    return {wo_.x + w.x * rcp, wo_.y + w.y * rcp, wo_.z + w.z * rcp};
 }
 
 }  // namespace vndf::reference

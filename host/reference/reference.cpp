@@ -10,6 +10,7 @@
 
 #include "reference/materials.h"
 #include "reference/terms.h"
+#include "reference/world.h"
 
 namespace vndf::reference {
 namespace {
@@ -259,6 +260,95 @@ struct Terms {
     static R pdf_wm_walter2007(Reader<R> in) { return ndf(in) * in.in[2]; }
 };
 
+// About n.
+template <class N, class R>
+struct WorldTerms {
+    static Vec3<R> one(Reader<R>& in) {
+        const Vec3<R> w = in.vector();
+        return upright(about(in.vector(), {w}));
+    }
+    static View<R> viewed(Reader<R> in) {
+        const Vec3<R> w = one(in);
+        const R alpha = in.alpha();
+        return view(w, alpha, alpha);
+    }
+    struct Two {
+        View<R> o, i;
+    };
+    static Two both(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), n = in.vector(), wi = in.vector();
+        const R alpha = in.alpha();
+        return {view(upright(about(n, {wo})), alpha, alpha), view(upright(about(n, {wi})), alpha, alpha)};
+    }
+    static R ndf(Reader<R> in) {
+        const Vec3<R> m = one(in);
+        const R alpha = in.alpha();
+        return N::template ndf<R>(m, alpha, alpha);
+    }
+    static R lambda(Reader<R> in) { return reference::lambda<N>(viewed(in)); }
+    static R sigma(Reader<R> in) { return N::template sigma<R>(viewed(in)); }
+    static R g1(Reader<R> in) { return reference::g1<N>(viewed(in)); }
+    static R g2(Reader<R> in) {
+        const Two v = both(in);
+        return reference::g2<N>(v.o, v.i);
+    }
+    static R weight(Reader<R> in) {
+        const Two v = both(in);
+        return reference::weight<N>(v.o, v.i);
+    }
+    static R pdf_wm(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), n = in.vector(), wm = in.vector();
+        return pdf_wm_world<N>(wo, n, wm, in.alpha());
+    }
+    static R pdf_wi(Reader<R> in) {
+        const Vec3<R> wo = in.vector(), n = in.vector(), wi = in.vector();
+        return pdf_wi_world<N>(wo, n, wi, in.alpha());
+    }
+};
+
+// By cosines.
+template <class N, class R>
+struct CosineTerms {
+    static Vec3<R> direction(const R& cosine) {
+        const R square = (1 - cosine) * (1 + cosine);
+        return {square > 0 ? R(std::sqrt(square)) : R(0), R(0), cosine};
+    }
+    static View<R> viewed(const R& cosine, const R& alpha) { return view(direction(cosine), alpha, alpha); }
+    static R ndf(Reader<R> in) {
+        const Vec3<R> m = direction(in.scalar());
+        const R alpha = in.alpha();
+        return N::template ndf<R>(m, alpha, alpha);
+    }
+    static R lambda(Reader<R> in) {
+        const R c = in.scalar();
+        return reference::lambda<N>(viewed(c, in.alpha()));
+    }
+    static R sigma(Reader<R> in) {
+        const R c = in.scalar();
+        return N::template sigma<R>(viewed(c, in.alpha()));
+    }
+    static R g1(Reader<R> in) {
+        const R c = in.scalar();
+        return reference::g1<N>(viewed(c, in.alpha()));
+    }
+    static R g2(Reader<R> in) {
+        const R o = in.scalar(), i = in.scalar(), alpha = in.alpha();
+        return reference::g2<N>(viewed(o, alpha), viewed(i, alpha));
+    }
+    static R weight(Reader<R> in) {
+        const R o = in.scalar(), i = in.scalar(), alpha = in.alpha();
+        return reference::weight<N>(viewed(o, alpha), viewed(i, alpha));
+    }
+    static R pdf_wm(Reader<R> in) {
+        const R o = in.scalar(), m = in.scalar(), cosine = in.scalar();
+        return cosine > 0 ? R(cosine * visible_by_cosines<N>(direction(o), direction(m), in.alpha())) : R(0);
+    }
+    static R pdf_wi(Reader<R> in) {
+        const R o = in.scalar(), m = in.scalar();
+        return visible_by_cosines<N>(direction(o), direction(m), in.alpha()) / 4;
+    }
+};
+
 template <class R, Bound<R> (*bound)(const View<R>&, const Vec3<R>&)>
 R ggx_pdf_wi_bounded_of(Reader<R> in) {
     const Vec3<R> wo = in.vector(), wi = in.vector();
@@ -326,6 +416,20 @@ Vec3<R> refract_of(Reader<R> in) {
     return refract(wo, wm, in.scalar());
 }
 template <class R>
+Vec3<R> tangent_of(Reader<R> in) {
+    return tangent(in.vector());
+}
+template <class R>
+Vec3<R> tangent_along_of(Reader<R> in) {
+    const Vec3<R> n = in.vector();
+    return tangent_along(n, in.vector());
+}
+template <class R, Vec3<R> (*map)(const Vec3<R>&, const Vec3<R>&, const Vec3<R>&)>
+Vec3<R> by_frame(Reader<R> in) {
+    const Vec3<R> w = in.vector(), n = in.vector();
+    return map(w, n, in.vector());
+}
+template <class R>
 R jacobian_reflect_of(Reader<R> in) {
     const Vec3<R> wo = in.vector();
     return 1 / (4 * std::abs(dot(wo, in.vector())));
@@ -378,6 +482,12 @@ constexpr Entry<R> entries[] = {
     VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
     VNDF_BOTH(weight)
 #undef VNDF_ENTRIES
+#define VNDF_ENTRIES(ndf, N, term)                                            \
+    {"vndf_" #ndf "_" #term "_world", evaluate_term<R, WorldTerms<N, R>::term>}, \
+    {"vndf_" #ndf "_" #term "_cosines", evaluate_term<R, CosineTerms<N, R>::term>},
+    VNDF_BOTH(ndf) VNDF_BOTH(lambda) VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2) VNDF_BOTH(weight)
+    VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi)
+#undef VNDF_ENTRIES
 #define VNDF_ENTRIES(ndf, N, term) {"vndf_" #ndf "_" #term "_lobe", evaluate_term<R, Terms<N, R>::term>},
     VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2) VNDF_BOTH(weight) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi)
 #undef VNDF_ENTRIES
@@ -410,6 +520,10 @@ constexpr Entry<R> entries[] = {
     {"vndf_lambert_sample_wi", evaluate_vector<R, lambert_direction_of<R>>},
     {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},
     {"vndf_refract", evaluate_vector<R, refract_of<R>>},
+    {"vndf_tangent", evaluate_vector<R, tangent_of<R>>},
+    {"vndf_tangent_along", evaluate_vector<R, tangent_along_of<R>>},
+    {"vndf_to_local", evaluate_vector<R, by_frame<R, to_frame<R>>>},
+    {"vndf_to_world", evaluate_vector<R, by_frame<R, from_frame<R>>>},
     {"vndf_jacobian_reflect", evaluate_term<R, jacobian_reflect_of<R>>},
     {"vndf_jacobian_refract", evaluate_term<R, jacobian_refract_of<R>>},
 };

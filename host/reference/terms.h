@@ -40,6 +40,10 @@ struct Ggx {
     static R visible(const Vec3<R>& m, const View<R>& v) {
         return ndf(m, v.alpha_x, v.alpha_y) / sigma(v);
     }
+    template <class R>
+    static R visible_by_cosines(const Vec3<R>& m, const Vec3<R>&, const View<R>& v) {
+        return visible(m, v);
+    }
 };
 
 struct Beckmann {
@@ -81,6 +85,20 @@ struct Beckmann {
         const Slopes<R> s = beckmann_slopes(v.across, v.up);
         if (!(s.a < 0)) return ndf(m, v.alpha_x, v.alpha_y) / sigma(v);
         return ndf(m, v.alpha_x, v.alpha_y, R(s.a * s.a)) / (v.across * s.weight / 2);
+    }
+    // The same of directions whose azimuths are not known, (sine, 0, cosine). Behind the surface the exponents of D and sigma
+    // are (tan(theta_m) / alpha)^2 and (cot(theta_o) / alpha)^2; a normal steeper than any visible one counts as one across wo.
+    template <class R>
+    static R visible_by_cosines(const Vec3<R>& m, const Vec3<R>& wo, const View<R>& v) {
+        using std::abs;
+        const Slopes<R> s = beckmann_slopes(v.across, v.up);
+        if (!(s.a < 0)) return visible(m, v);
+        // sin^2(theta_m) - cos^2(theta_o), or the same by the other two.
+        const R co = abs(wo.z),
+                gap = m.x < wo.x ? R((m.x - co) * (m.x + co)) : R((wo.x - m.z) * (wo.x + m.z));
+        const R left = gap > 0 ? R(gap / squared(R(m.z * wo.x * v.alpha_x))) : R(0),
+                shift = exponent(m, v.alpha_x, v.alpha_y) - left;
+        return ndf(m, v.alpha_x, v.alpha_y, shift) / (v.across * s.weight / 2);
     }
 };
 
@@ -130,6 +148,13 @@ R brdf(const Vec3<R>& wo, const Vec3<R>& wi, const R& ax, const R& ay) {
     if (!(wo.z > 0 && wi.z > 0)) return R(0);
     const R wide = 4 * wo.z * wi.z * (1 + lambda<N>(o) + lambda<N>(i));
     return N::template ndf<R>(h, ax, ay) / wide;
+}
+
+// The same by cosines, with directions (sine, 0, cosine): pdf_wm over the cosine wo . wm.
+template <class N, class R>
+R visible_by_cosines(const Vec3<R>& wo, const Vec3<R>& wm, const R& alpha) {
+    const View<R> v = view(wo, alpha, alpha);
+    return wm.z > 0 && !nothing_visible(v) ? R(N::template visible_by_cosines<R>(wm, wo, v)) : R(0);
 }
 
 // o_z + k cos(theta) of the stretched reflection o, and its change when each component of wi moves by 1: with

@@ -94,6 +94,51 @@
 #define VNDF_CALL_WO_WI_ETA VNDF_CALL3(wo), VNDF_CALL3(wi), eta
 #define VNDF_ARGUMENTS_WO_WI_ETA "wo, wi, eta"
 
+// About a normal, by cosines, and frames.
+#define VNDF_SCALARS_W_N_ALPHA1(S) VNDF_SCALARS3(S, w) VNDF_SCALARS3(S, n) S(alpha)
+#define VNDF_CALL_W_N_ALPHA1 VNDF_CALL3(w), VNDF_CALL3(n), alpha
+#define VNDF_ARGUMENTS_W_N_ALPHA1 "w, n, alpha"
+
+#define VNDF_SCALARS_WM_N_ALPHA1(S) VNDF_SCALARS3(S, wm) VNDF_SCALARS3(S, n) S(alpha)
+#define VNDF_CALL_WM_N_ALPHA1 VNDF_CALL3(wm), VNDF_CALL3(n), alpha
+#define VNDF_ARGUMENTS_WM_N_ALPHA1 "wm, n, alpha"
+
+#define VNDF_SCALARS_WO_N_WI_ALPHA1(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, n) VNDF_SCALARS3(S, wi) S(alpha)
+#define VNDF_CALL_WO_N_WI_ALPHA1 VNDF_CALL3(wo), VNDF_CALL3(n), VNDF_CALL3(wi), alpha
+#define VNDF_ARGUMENTS_WO_N_WI_ALPHA1 "wo, n, wi, alpha"
+
+#define VNDF_SCALARS_COS_ALPHA1(S) S(cos_theta) S(alpha)
+#define VNDF_CALL_COS_ALPHA1 cos_theta, alpha
+#define VNDF_ARGUMENTS_COS_ALPHA1 "cos_theta, alpha"
+
+#define VNDF_SCALARS_COS_M_ALPHA1(S) S(cos_theta_m) S(alpha)
+#define VNDF_CALL_COS_M_ALPHA1 cos_theta_m, alpha
+#define VNDF_ARGUMENTS_COS_M_ALPHA1 "cos_theta_m, alpha"
+
+#define VNDF_SCALARS_COS_O_I_ALPHA1(S) S(cos_theta_o) S(cos_theta_i) S(alpha)
+#define VNDF_CALL_COS_O_I_ALPHA1 cos_theta_o, cos_theta_i, alpha
+#define VNDF_ARGUMENTS_COS_O_I_ALPHA1 "cos_theta_o, cos_theta_i, alpha"
+
+#define VNDF_SCALARS_COS_O_M_ALPHA1(S) S(cos_theta_o) S(cos_theta_m) S(alpha)
+#define VNDF_CALL_COS_O_M_ALPHA1 cos_theta_o, cos_theta_m, alpha
+#define VNDF_ARGUMENTS_COS_O_M_ALPHA1 "cos_theta_o, cos_theta_m, alpha"
+
+#define VNDF_SCALARS_COS_O_M_OM_ALPHA1(S) S(cos_theta_o) S(cos_theta_m) S(wo_dot_wm) S(alpha)
+#define VNDF_CALL_COS_O_M_OM_ALPHA1 cos_theta_o, cos_theta_m, wo_dot_wm, alpha
+#define VNDF_ARGUMENTS_COS_O_M_OM_ALPHA1 "cos_theta_o, cos_theta_m, wo_dot_wm, alpha"
+
+#define VNDF_SCALARS_N(S) VNDF_SCALARS3(S, n)
+#define VNDF_CALL_N VNDF_CALL3(n)
+#define VNDF_ARGUMENTS_N "n"
+
+#define VNDF_SCALARS_N_W(S) VNDF_SCALARS3(S, n) VNDF_SCALARS3(S, w)
+#define VNDF_CALL_N_W VNDF_CALL3(n), VNDF_CALL3(w)
+#define VNDF_ARGUMENTS_N_W "n, w"
+
+#define VNDF_SCALARS_W_N_T(S) VNDF_SCALARS3(S, w) VNDF_SCALARS3(S, n) VNDF_SCALARS3(S, t)
+#define VNDF_CALL_W_N_T VNDF_CALL3(w), VNDF_CALL3(n), VNDF_CALL3(t)
+#define VNDF_ARGUMENTS_W_N_T "w, n, t"
+
 // Of a lobe, set up on the spot.
 #define VNDF_SCALARS_CONIC2026_LOBE_U(S) VNDF_SCALARS_WO_ALPHA_U(S)
 #define VNDF_CALL_CONIC2026_LOBE_U vndf_ggx_conic2026_lobe(VNDF_CALL3(wo), VNDF_CALL2(alpha)), VNDF_CALL_U
@@ -143,6 +188,8 @@
 #define VNDF_RESULTS_U(S) S(u1, .x) S(u2, .y)
 #define VNDF_RESULTS_WM(S) S(wm_x, .x) S(wm_y, .y) S(wm_z, .z)
 #define VNDF_RESULTS_WI(S) S(wi_x, .x) S(wi_y, .y) S(wi_z, .z)
+#define VNDF_RESULTS_T(S) S(t_x, .x) S(t_y, .y) S(t_z, .z)
+#define VNDF_RESULTS_V(S) S(v_x, .x) S(v_y, .y) S(v_z, .z)
 #define VNDF_RESULTS_WM_PDF(S) VNDF_RESULTS_WM(S) S(pdf, .w)
 #define VNDF_RESULTS_WI_PDF(S) VNDF_RESULTS_WI(S) S(pdf, .w)
 
@@ -152,6 +199,8 @@
 #define VNDF_TYPE_U VNDF_REAL2
 #define VNDF_TYPE_WM VNDF_REAL3
 #define VNDF_TYPE_WI VNDF_REAL3
+#define VNDF_TYPE_T VNDF_REAL3
+#define VNDF_TYPE_V VNDF_REAL3
 #define VNDF_TYPE_WM_PDF VNDF_REAL4
 #define VNDF_TYPE_WI_PDF VNDF_REAL4
 

@@ -6,23 +6,11 @@
 #ifndef VNDF_GGX_BENYOUB2024_H
 #define VNDF_GGX_BENYOUB2024_H
 
-#include "ggx.h"
+#include "ggx_world.h"
 #include "impl/exact.h"
 #include "impl/lobe.h"
 
 VNDF_BEGIN
-
-// n x w, each component with the error of one rounding.
-VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
-    struct vndf_impl_vector c;
-    c.x = vndf_impl_difference_of_products(n.y, w.z, n.z, w.y);
-    c.y = vndf_impl_difference_of_products(n.z, w.x, n.x, w.z);
-    c.z = vndf_impl_difference_of_products(n.x, w.y, n.y, w.x);
-    return c;
-}
-VNDF_FN VNDF_REAL vndf_impl_length(struct vndf_impl_vector c) {
-    return VNDF_SQRT(VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z)));
-}
 
 // Half a turn about w = n + sigma takes sigma to n. Only the unit vector of the cap's azimuth is turned, which gives a vector
 // across n; the height is added along n and alpha wo's part across n as it is: nothing is projected on n again.
@@ -110,19 +98,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_benyoub2024_with_pdf(VNDF_REAL3 wo, VNDF_R
 // return: per steradian of wm; 0 for wm . n <= 0 or wo . wm <= 0.
 // Accuracy: 4 eps (1 + condition number); double 86.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_benyoub2024(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 wm, VNDF_REAL alpha) {
-    VNDF_REAL cos_om = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
-    // In another order than wo . n: two products of one shape would be packed (impl/stretch.h).
-    VNDF_REAL wm_z = vndf_impl_dot(n.z, n.x, n.y, wm.z, wm.x, wm.y);
-    VNDF_REAL wo_z = vndf_impl_dot(wo.x, wo.y, wo.z, n.x, n.y, n.z);
-    VNDF_REAL a = vndf_impl_alpha(alpha);
-    VNDF_REAL twice_sigma =
-        vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
-    VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(wm, n)), VNDF_R(0.0), wm_z, a, a);
-    VNDF_REAL area = (VNDF_2_PI / ((q * a) * (q * a))) * cos_om;
-    VNDF_REAL pdf = vndf_impl_bounded_quotient(vndf_impl_max(area, VNDF_R(0.0)), twice_sigma);
-    // pdf is positive where wo . wm is.
-    int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
-    return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return vndf_ggx_pdf_wm_world(wo, n, wm, alpha);
 }
 
 VNDF_END

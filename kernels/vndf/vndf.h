@@ -10,7 +10,8 @@
 // Conventions
 //   wo      the known direction (towards the viewer), wi the sampled one, wm the microfacet normal: unit
 //           vectors that point away from the surface. Papers differ: their omega_i or V is often our wo.
-//   frame   local, z the macroscopic normal; the world-space sampler takes the normal n instead.
+//   frame   local, z the macroscopic normal; the world-space sampler and functions ending in _world take the normal n
+//           instead, those ending in _cosines nothing but dot products, both with one alpha. frame.h has the ways there.
 //   alpha   (alpha_x, alpha_y), the parameters of the distribution, not a perceptual roughness. Clamped to
 //           [1e-8, 1e3]: below, the surface is a mirror to working precision.
 //   u       two uniform numbers in [0, 1], clamped to [2^-33, 1 - 2^-24] (double: [2^-65, 1 - 2^-53]), the
@@ -43,10 +44,13 @@
 #define VNDF_VERSION_PATCH 0
 
 #include "config.h"
+#include "frame.h"
 #include "geometry.h"
 
 #include "ggx.h"
 #include "ggx_lobe.h"
+#include "ggx_world.h"
+#include "ggx_cosines.h"
 #include "ggx_heitz_deon2014.h"
 #include "ggx_heitz2017.h"
 #include "ggx_heitz2018.h"
@@ -59,6 +63,8 @@
 
 #include "beckmann.h"
 #include "beckmann_lobe.h"
+#include "beckmann_world.h"
+#include "beckmann_cosines.h"
 #include "beckmann_heitz_deon2014.h"
 #include "beckmann_jakob2014.h"
 #include "beckmann_walter2007.h"

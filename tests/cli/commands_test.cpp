@@ -80,6 +80,7 @@ TEST_CASE("every command runs to its end with every option") {
         "--selftest",
         "emit vndf_bsdf_sample --effects lambert,fresnel=none --output material.h",
         "policies --help",
+        "policies --only vndf_reflect --quick --flags cycles",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
         lines.insert(lines.end(),

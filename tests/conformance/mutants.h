@@ -20,20 +20,25 @@ struct Mutant {
 inline const std::vector<Mutant>& mutants() {
     static const std::vector<Mutant> all{
 #include "mutants/beckmann.h"
-#include "mutants/bsdf_lambert.h"
+#include "mutants/beckmann_cosines.h"
 #include "mutants/beckmann_heitz_deon2014.h"
+#include "mutants/beckmann_world.h"
+#include "mutants/bsdf_lambert.h"
 #include "mutants/config.h"
+#include "mutants/frame.h"
 #include "mutants/fresnel.h"
 #include "mutants/geometry.h"
 #include "mutants/ggx.h"
 #include "mutants/ggx_benyoub2024.h"
 #include "mutants/ggx_conic2026.h"
+#include "mutants/ggx_cosines.h"
 #include "mutants/ggx_dupuy2023.h"
 #include "mutants/ggx_eto2023.h"
 #include "mutants/ggx_eto2023_polygon.h"
 #include "mutants/ggx_heitz2017.h"
 #include "mutants/ggx_heitz2018.h"
 #include "mutants/ggx_heitz_deon2014.h"
+#include "mutants/ggx_world.h"
 #include "mutants/impl_beckmann_lobe.h"
 #include "mutants/impl_beckmann_slopes.h"
 #include "mutants/impl_cone.h"
@@ -45,6 +50,7 @@ inline const std::vector<Mutant>& mutants() {
 #include "mutants/impl_range.h"
 #include "mutants/impl_slopes.h"
 #include "mutants/impl_stretch.h"
+#include "mutants/impl_world.h"
     };
     return all;
 }

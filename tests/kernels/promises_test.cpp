@@ -33,9 +33,12 @@ std::vector<std::vector<double>> evaluate_on_host(Real real, const std::string& 
     return evaluate(host, *find_function(name), table);
 }
 
-// wo and wi, the first two arguments, in each other's place.
-Table exchanged(Table rows) {
-    for (int k = 0; k < 3; ++k) std::swap(rows.columns[k], rows.columns[k + 3]);
+// wo and wi, or their cosines, in each other's place.
+Table exchanged(const Function& function, Table rows) {
+    for (const auto& [o, i] :
+         {std::pair{"wo_x", "wi_x"}, {"wo_y", "wi_y"}, {"wo_z", "wi_z"}, {"cos_theta_o", "cos_theta_i"}})
+        if (column(function, o) >= 0)
+            std::swap(rows.columns[column(function, o)], rows.columns[column(function, i)]);
     return rows;
 }
 
@@ -143,15 +146,27 @@ TEST_CASE("NaN in a direction is not hidden by a term") {
             const auto results = evaluate_on_host(real, name, table);
             for (const double result : results[0]) CHECK(std::isnan(result));
         }
+    for (const Real real : reals)
+        for (const char* name : {"vndf_ggx_sigma_world", "vndf_ggx_g1_world", "vndf_beckmann_sigma_world",
+                                 "vndf_beckmann_g1_world"}) {
+            INFO(name);
+            Table table = empty_table(name);
+            add_row(table, {nan, 0, 0.8, 0, 0, 1, 0.5}), add_row(table, {0, 0.6, 0.8, 0, nan, 1, 0.5});
+            const auto results = evaluate_on_host(real, name, table);
+            for (const double result : results[0]) CHECK(std::isnan(result));
+        }
 }
 
 TEST_CASE("masking and shadowing has the same bits for wo and wi exchanged") {
     for (const Real real : reals)
-        for (const char* name : {"vndf_ggx_g2", "vndf_ggx_g2_lobe", "vndf_ggx_g2_separable",
-                                 "vndf_beckmann_g2", "vndf_beckmann_g2_lobe", "vndf_beckmann_g2_separable"}) {
-            const Table rows = digest_inputs(*find_function(name), std::size_t{1} << 14, real);
+        for (const char* name :
+             {"vndf_ggx_g2", "vndf_ggx_g2_lobe", "vndf_ggx_g2_separable", "vndf_beckmann_g2",
+              "vndf_beckmann_g2_lobe", "vndf_beckmann_g2_separable", "vndf_ggx_g2_world",
+              "vndf_beckmann_g2_world", "vndf_ggx_g2_cosines", "vndf_beckmann_g2_cosines"}) {
+            const Function& g2 = *find_function(name);
+            const Table rows = digest_inputs(g2, std::size_t{1} << 14, real);
             const auto one = evaluate_on_host(real, name, rows),
-                       other = evaluate_on_host(real, name, exchanged(rows));
+                       other = evaluate_on_host(real, name, exchanged(g2, rows));
             std::size_t different = 0, positive = 0;
             for (std::size_t i = 0; i < rows.rows(); ++i) {
                 different += one[0][i] != other[0][i];
@@ -187,7 +202,7 @@ TEST_CASE("a GGX reflection has the same value, and its densities change places,
             const Function& pair = *find_function(name);
             const Table rows = digest_inputs(pair, std::size_t{1} << 14, real);
             const auto one = evaluate_on_host(real, name, rows),
-                       other = evaluate_on_host(real, name, exchanged(rows));
+                       other = evaluate_on_host(real, name, exchanged(pair, rows));
             const bool both = pair.result == "PDF_BOTH";
             std::size_t different = 0, positive = 0;
             for (std::size_t i = 0; i < rows.rows(); ++i) {

@@ -53,7 +53,7 @@ class Ordinary {
                 values.push_back(uniform(0, 8));
             else if (name == "f0" || name == "f90" || name == "tint")
                 values.push_back(uniform(0, 1));
-            else if (name == "cos_theta")
+            else if (name.rfind("cos_theta", 0) == 0 || name == "wo_dot_wm")
                 values.push_back(uniform(-1, 1));
             else if (name == "x" || name.rfind("slope_", 0) == 0)
                 values.push_back(normal_(engine_));

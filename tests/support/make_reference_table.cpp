@@ -3,7 +3,7 @@
 //
 //   g++ -std=c++20 -O2 tests/support/make_reference_table.cpp -o make_reference_table
 //   ./make_reference_table > tests/data/reference_50digits.csv          (some ten minutes)
-// (with the argument samplers, terms, conic or materials: that part alone)
+// (with the argument samplers, terms, conic, materials or frames: that part alone)
 //
 // Everything starts from the distributions of slopes
 //   GGX 1 / (pi (1 + x^2 + y^2)^2),  Beckmann exp(-x^2 - y^2) / pi  (alpha = 1),
@@ -702,6 +702,73 @@ std::map<std::string, Evaluation> evaluations() {
                                        sigma(Ndf::ggx, {across, 0, up}, in[9], in[9]))
                                 : Real(0)};
     };
+    // About n and by cosines: the local functions of a direction with the same angle to the axis.
+    const auto about = [](const Vec& n, const Vec& w) {
+        const Vec axis = unit(n);
+        const Real up = dot(w, axis);
+        return Vec{norm(w - up * axis), 0, up};
+    };
+    const auto of_cosine = [](const Real& c) { return Vec{sqrt((1 - c) * (1 + c)), 0, c}; };
+    const auto local = [](const Vec& w, const Real& alpha) { return Reals{w.x, w.y, w.z, alpha, alpha}; };
+    const auto both = [](const Vec& a, const Vec& b, const Real& alpha) {
+        return Reals{a.x, a.y, a.z, b.x, b.y, b.z, alpha, alpha};
+    };
+    for (const Ndf ndf : {Ndf::ggx, Ndf::beckmann}) {
+        const std::string prefix = ndf == Ndf::ggx ? "vndf_ggx_" : "vndf_beckmann_";
+        for (const char* term : {"ndf", "lambda", "sigma", "g1"}) {
+            const Evaluation f = all[prefix + term];
+            all[prefix + term + "_world"] = [=](const Reals& in) {
+                return f(local(about(vec(in, 3), vec(in, 0)), in[6]));
+            };
+            all[prefix + term + "_cosines"] = [=](const Reals& in) {
+                return f(local(of_cosine(in[0]), in[1]));
+            };
+        }
+        for (const char* term : {"g2", "weight"}) {
+            const Evaluation f = all[prefix + term];
+            all[prefix + term + "_world"] = [=](const Reals& in) {
+                return f(both(about(vec(in, 3), vec(in, 0)), about(vec(in, 3), vec(in, 6)), in[9]));
+            };
+            all[prefix + term + "_cosines"] = [=](const Reals& in) {
+                return f(both(of_cosine(in[0]), of_cosine(in[1]), in[2]));
+            };
+        }
+        const auto visible = [ndf](const Vec& wo, const Vec& m, const Real& alpha) {
+            return Real(d(ndf, m, alpha, alpha) / sigma(ndf, wo, alpha, alpha));
+        };
+        all[prefix + "pdf_wm_world"] = [=](const Reals& in) {
+            const Vec wo = vec(in, 0), n = vec(in, 3), m = vec(in, 6);
+            const Real cosine = dot(wo, m);
+            return Reals{cosine > 0 ? Real(cosine * visible(about(n, wo), about(n, m), in[9])) : Real(0)};
+        };
+        all[prefix + "pdf_wi_world"] = [=](const Reals& in) {
+            const Vec wo = vec(in, 0), n = vec(in, 3), m = unit(wo + vec(in, 6));
+            return Reals{visible(about(n, wo), about(n, m), in[9]) / 4};
+        };
+        all[prefix + "pdf_wm_cosines"] = [=](const Reals& in) {
+            return Reals{in[2] * visible(of_cosine(in[0]), of_cosine(in[1]), in[3])};
+        };
+        all[prefix + "pdf_wi_cosines"] = [=](const Reals& in) {
+            return Reals{visible(of_cosine(in[0]), of_cosine(in[1]), in[2]) / 4};
+        };
+    }
+    // Two half turns take z, or -z, to n: about it and about the middle of both.
+    all["vndf_tangent"] = [](const Reals& in) {
+        const Vec n = unit(vec(in, 0)), h = unit(n + Vec{0, 0, n.z < 0 ? Real(-1) : Real(1)});
+        return list(Vec{1, 0, 0} - 2 * h.x * h);
+    };
+    all["vndf_tangent_along"] = [](const Reals& in) {
+        const Vec n = unit(vec(in, 0)), w = vec(in, 3);
+        return list(unit(w - dot(w, n) * n));
+    };
+    all["vndf_to_local"] = [](const Reals& in) {
+        const Vec w = vec(in, 0), n = vec(in, 3), t = vec(in, 6);
+        return list(Vec{dot(cross(n, t), cross(n, w)), -dot(t, cross(n, w)), dot(w, n)});
+    };
+    all["vndf_to_world"] = [](const Reals& in) {
+        const Vec w = vec(in, 0), n = vec(in, 3), t = vec(in, 6);
+        return list(w.x * t + w.y * cross(n, t) + w.z * n);
+    };
     all["vndf_reflect"] = [](const Reals& in) { return list(reflect(vec(in, 0), vec(in, 3))); };
     all["vndf_refract"] = [](const Reals& in) {
         // Snell: the part of wo across wm, negated, is divided by eta; the rest is what makes the length 1.
@@ -1054,6 +1121,79 @@ void materials(Table& table) {
         for (const bool f32 : {true, false}) table.row("vndf_lambert_sample_wi", {u[0], u[1]}, f32);
 }
 
+// Directions about normals everywhere, their cosines, and frames.
+void frames(Table& table) {
+    struct Double3 {
+        double x, y, z;
+    };
+    const auto dot_of = [](const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    const auto append = [](std::vector<double> to, std::initializer_list<Double3> vectors, double alpha) {
+        for (const Double3& v : vectors) to.insert(to.end(), {v.x, v.y, v.z});
+        if (alpha > 0) to.push_back(alpha);
+        return to;
+    };
+    const double normals[][3] = {{0, 0, 1},        {0, 0, -1}, {0.6, 0, -0.8}, {0.36, -0.48, 0.8},
+                                 {0.3, -0.9, 0.1}, {0, 1, 0},  {1e-6, 0, -1},  {-0.5, 0.5, -1e-9}};
+    const double slopes[][2] = {{0.3, -0.7}, {2, 1}, {-0.01, 0.02}, {-1.5, -0.4}, {0.6, 0.1}};
+    std::size_t k = 0;
+    for (const Lobe& l :
+         {lobes[0], lobes[3], lobes[2], back_lobes[3], lobes[1], lobes[11], back_lobes[2], lobes[4]}) {
+        const auto& given = normals[k % std::size(normals)];
+        const auto& s = slopes[k % std::size(slopes)];
+        const double size = std::sqrt(given[0] * given[0] + given[1] * given[1] + given[2] * given[2]);
+        const Double3 n{given[0] / size, given[1] / size, given[2] / size};
+        // The half turn about n + z or n - z.
+        const double sign = n.z < 0 ? -1 : 1;
+        const auto turned = [&](const std::vector<double>& w) {
+            const double share = (n.x * w[0] + n.y * w[1] + (n.z + sign) * w[2]) / (1 + sign * n.z);
+            return Double3{share * n.x - w[0], share * n.y - w[1], share * (n.z + sign) - w[2]};
+        };
+        std::vector<double> o, m;
+        direction(l, o);
+        const double across = std::hypot(o[0], o[1]), ex = across > 0 ? o[0] / across : 1,
+                     ey = across > 0 ? o[1] / across : 0;
+        const double towards =
+            l.cos_theta < 0 ? -l.cos_theta / (l.ax * across) * 1.0001 + 0.2 : 0.5 + 0.3 * s[0];
+        normal({l.cos_theta, l.phi, l.ax, l.ax}, towards * ex - s[1] * ey, towards * ey + s[1] * ex, m);
+        const Double3 wo = turned(o), wm = turned(m), t = turned({1, 0, 0});
+        const double c = dot_of(wo, wm);
+        const Double3 wi{2 * c * wm.x - wo.x, 2 * c * wm.y - wo.y, 2 * c * wm.z - wo.z};
+        const double cos_o = dot_of(wo, n), cos_m = dot_of(wm, n), cos_i = dot_of(wi, n);
+        for (const std::string prefix : {"vndf_ggx_", "vndf_beckmann_"}) {
+            for (const char* kind : {"_world", "_cosines"}) {
+                const bool world = kind[1] == 'w';
+                const auto one = [&](const Double3& w, double cosine) {
+                    return world ? append({}, {w, n}, l.ax) : std::vector<double>{cosine, l.ax};
+                };
+                const auto row = [&](const char* term, const std::vector<double>& in) {
+                    table.row(prefix + term + kind, in);
+                };
+                // Of a cosine next to 1 nothing is left of the angle.
+                if (world || std::abs(cos_m) < 1 - 1e-9) row("ndf", one(wm, cos_m));
+                if (!world && std::abs(cos_o) > 1 - 1e-9) continue;
+                for (const char* term : {"lambda", "sigma", "g1"}) row(term, one(wo, cos_o));
+                const std::vector<double> two =
+                    world ? append({}, {wo, n, wi}, l.ax) : std::vector<double>{cos_o, cos_i, l.ax};
+                for (const char* term : {"g2", "weight"}) row(term, two);
+                if (!world && std::abs(cos_m) > 1 - 1e-9) continue;
+                row("pdf_wm",
+                    world ? append({}, {wo, n, wm}, l.ax) : std::vector<double>{cos_o, cos_m, c, l.ax});
+                row("pdf_wi", world ? two : std::vector<double>{cos_o, cos_m, l.ax});
+            }
+        }
+        if (k < 3) {
+            std::vector<double> in = o;
+            in.insert(in.end(), {m[0], m[1], m[2], 0.4, 0.6});
+            table.row("vndf_beckmann_weight", in);
+        }
+        table.row("vndf_tangent", append({}, {n}, 0));
+        if (across > 1e-3) table.row("vndf_tangent_along", append({}, {n, wo}, 0));
+        table.row("vndf_to_local", append({}, {wo, n, t}, 0));
+        table.row("vndf_to_world", append({}, {{o[0], o[1], o[2]}, n, t}, 0));
+        ++k;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -1063,4 +1203,5 @@ int main(int argc, char** argv) {
     if (part.empty() || part == "terms") terms(table);
     if (part.empty() || part == "conic") conic(table);
     if (part.empty() || part == "materials") materials(table);
+    if (part.empty() || part == "frames") frames(table);
 }

@@ -35,7 +35,7 @@ inline std::vector<std::vector<double>> rows_with_zeros(const Function& function
     for (const std::string& name : function.inputs) {
         vectors += name.ends_with("_z");
         scalars += name.find('_') == name.npos || name.starts_with("alpha") || name.starts_with("slope") ||
-                   name == "cos_theta";
+                   name.starts_with("cos_theta") || name == "wo_dot_wm";
     }
     for (int v = 0; v < vectors; ++v) {
         std::vector<std::vector<double>> longer;

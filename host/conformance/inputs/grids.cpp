@@ -15,10 +15,10 @@ bool uses(const Function& function, std::initializer_list<std::string_view> name
 }
 
 bool uses_wo(const Function& function) {
-    return uses(function, {"wo_x", "w_x", "cos_theta"});
+    return uses(function, {"wo_x", "w_x", "cos_theta", "cos_theta_o"});
 }
 bool uses_normal(const Function& function) {
-    return uses(function, {"wm_x", "wi_x", "slope_x", "x", "k"});
+    return uses(function, {"wm_x", "wi_x", "slope_x", "x", "k", "cos_theta_i", "cos_theta_m"});
 }
 
 // For functions of (wo, wi, eta): every other wi becomes the refracted direction where there is one.

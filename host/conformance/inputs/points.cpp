@@ -73,8 +73,10 @@ Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched nor
     const Direction wi{twice * wm[0] - wo[0], twice * wm[1] - wo[1], twice * wm[2] - wo[2]};
     point.slope = {-wm[0] / wm[2], -wm[1] / wm[2]};
     point.x = -h[0] / h[2];
+    point.cos_theta_m = wm[2], point.cos_theta_i = wi[2], point.wo_dot_wm = twice / 2;
     const bool local = n == Direction{0, 0, 1};
     point.n = n;
+    if (!local) point.t = to_frame(n, {1, 0, 0});
     point.wo = local ? wo : to_frame(n, wo);
     point.wm = local ? wm : to_frame(n, wm);
     point.wi = local ? wi : to_frame(n, wi);
@@ -96,6 +98,7 @@ double Point::scalar(std::string_view name) const {
                                          {"n", &n},
                                          {"wm", &wm},
                                          {"wi", &wi},
+                                         {"t", &t},
                                          {"w", &wo}})
         if (const double* value = component(prefix, *values)) return *value;
     if (const double* value = component("alpha", alpha)) return *value;
@@ -109,6 +112,10 @@ double Point::scalar(std::string_view name) const {
                                        {"f90", u[1]},
                                        {"tint", u[1]},
                                        {"cos_theta", cos_theta},
+                                       {"cos_theta_o", cos_theta},
+                                       {"cos_theta_i", cos_theta_i},
+                                       {"cos_theta_m", cos_theta_m},
+                                       {"wo_dot_wm", wo_dot_wm},
                                        {"x", x}})
         if (name == known) return value;
     throw std::invalid_argument("no grid for the argument " + std::string(name));

@@ -18,8 +18,12 @@ RowReader::RowReader(const Function& function)
       wm_(column(function, "wm_x")),
       wi_(column(function, "wi_x")),
       alpha_(column(function, "alpha_x")),
-      alpha_columns_(2) {
+      alpha_columns_(2),
+      cos_o_(column(function, "cos_theta_o")),
+      cos_m_(column(function, "cos_theta_m")),
+      cos_i_(column(function, "cos_theta_i")) {
     if (wo_ < 0) wo_ = column(function, "w_x");
+    if (cos_o_ < 0) cos_o_ = column(function, "cos_theta");
     if (alpha_ < 0) {
         alpha_ = column(function, "alpha");
         alpha_columns_ = 1;
@@ -36,8 +40,37 @@ std::array<double, 2> RowReader::alpha(const double* row) const {
     return {row[alpha_], row[alpha_ + alpha_columns_ - 1]};
 }
 
+namespace {
+
+Direction of_cosine(double cosine) {
+    return {std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine))), 0, cosine};
+}
+
+// w in a frame about n: the half turn about n + z, or n - z, takes n to the axis.
+Direction about(Direction n, const Direction& w) {
+    const double size = length(n);
+    for (double& x : n) x /= size;
+    const double sign = n[2] < 0 ? -1 : 1, share = dot(n, w) + sign * w[2], twice = share / (1 + sign * n[2]);
+    return {twice * n[0] - w[0], twice * n[1] - w[1], dot(n, w)};
+}
+
+}  // namespace
+
+RowReader::Local RowReader::local(const double* row) const {
+    Local l;
+    const auto place = [&](int column, int cosine, Direction& w) {
+        if (column >= 0) w = has_n() ? about(n(row), read(row, column)) : read(row, column);
+        if (cosine >= 0) w = of_cosine(row[cosine]);
+        return column >= 0 || cosine >= 0;
+    };
+    place(wo_, cos_o_, l.wo);
+    l.has_wm = place(wm_, cos_m_, l.wm);
+    l.has_wi = place(wi_, cos_i_, l.wi);
+    return l;
+}
+
 reference::Lobe RowReader::lobe(const double* row) const {
-    const auto [ox, oy, oz] = wo(row);
+    const auto [ox, oy, oz] = cos_o_ < 0 ? wo(row) : of_cosine(row[cos_o_]);
     const auto [nx, ny, nz] = n(row);
     const auto [alpha_x, alpha_y] = alpha(row);
     return {{ox, oy, oz}, {nx, ny, nz}, alpha_x, alpha_y};

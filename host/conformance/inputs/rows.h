@@ -32,6 +32,14 @@ class RowReader {
     Direction wi(const double* row) const { return read(row, wi_); }
     std::array<double, 2> alpha(const double* row) const;
 
+    // The directions of the row in the local frame, whichever way they are given: about n, or by cosines, with an azimuth that
+    // makes no difference.
+    struct Local {
+        Direction wo{0, 0, 1}, wm{0, 0, 1}, wi{0, 0, 1};
+        bool has_wm = false, has_wi = false;
+    };
+    Local local(const double* row) const;
+
     // What a density is about.
     reference::Lobe lobe(const double* row) const;
 
@@ -41,6 +49,7 @@ class RowReader {
   private:
     static Direction read(const double* row, int column);
     int wo_, n_, wm_, wi_, alpha_, alpha_columns_;
+    int cos_o_, cos_m_, cos_i_;
 };
 
 // The part of the domain for which the strict bounds hold in full: cos(theta_o) >= 0.1, 1e-3 <= alpha <= 1.

@@ -18,6 +18,19 @@ struct Nodes {
     std::vector<double> weight;
 };
 
+// Of a density that takes cosines: those of the rule's normals. A density of reflections is integrated over their normals, too.
+void add_cosines(const Function& density, const std::vector<double>& row,
+                 const reference::QuadratureRule& rule, Nodes& result) {
+    const Direction wo = RowReader(density).local(row.data()).wo;
+    const int wo_dot_wm = column(density, "wo_dot_wm");
+    result.inputs.columns[column(density, "cos_theta_m")] = rule.z;
+    for (std::size_t i = 0; i < rule.size(); ++i) {
+        const double cosine = dot(wo, {rule.x[i], rule.y[i], rule.z[i]});
+        if (wo_dot_wm >= 0) result.inputs.columns[wo_dot_wm][i] = cosine;
+        if (density.support == Support::mirrored) result.weight[i] *= 4 * std::max(0.0, cosine);
+    }
+}
+
 // The density's own direction is the last of its vectors: wm or wi.
 Nodes nodes(const Function& density, const std::vector<double>& row, Real real) {
     const reference::QuadratureRule rule =
@@ -26,9 +39,13 @@ Nodes nodes(const Function& density, const std::vector<double>& row, Real real) 
     Nodes result;
     result.weight = rule.weight;
     for (const double value : row) result.inputs.columns.emplace_back(rule.size(), value);
-    result.inputs.columns[variable] = rule.x;
-    result.inputs.columns[variable + 1] = rule.y;
-    result.inputs.columns[variable + 2] = rule.z;
+    if (variable >= 0) {
+        result.inputs.columns[variable] = rule.x;
+        result.inputs.columns[variable + 1] = rule.y;
+        result.inputs.columns[variable + 2] = rule.z;
+    } else {
+        add_cosines(density, row, rule, result);
+    }
     for (std::vector<double>& column : result.inputs.columns)
         for (double& value : column) value = rounded(value, real);
     return result;
@@ -43,8 +60,13 @@ double rounding_share(const Function& density, const Nodes& at, const std::vecto
     double share = 0, total = 0;
     for (std::size_t i = 0; i < at.weight.size(); i += step) {
         const double mass = at.weight[i] * values[i];
-        const double condition =
-            relative_condition(density, evaluation, at.inputs.row(i).data(), precision(real));
+        const std::vector<double> row = at.inputs.row(i);
+        double condition = relative_condition(density, evaluation, row.data(), precision(real));
+        // In double a lobe may be narrower than a rounding error of float: what one of double changes.
+        if (real == Real::f64)
+            condition = std::max(condition, absolute_condition(density, evaluation, row.data(),
+                                                               precision(real), -1, 2 * epsilon(real)) /
+                                                values[i]);
         if (!(mass > 0)) continue;
         share += mass * std::min(1.0, epsilon(real) * condition);
         total += mass;

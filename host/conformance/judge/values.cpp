@@ -15,8 +15,9 @@ double exponent(const Function& function, const RowReader& reader, const double*
     const auto alpha = reader.alpha(row);
     if (const int slope = column(function, "slope_x"); slope >= 0)
         return beckmann_exponent({row[slope], row[slope + 1], 1}, alpha);
-    if (reader.has_wm()) return beckmann_exponent(reader.wm(row), alpha);
-    const Direction wo = reader.wo(row), wi = reader.wi(row);
+    const RowReader::Local local = reader.local(row);
+    if (local.has_wm) return beckmann_exponent(local.wm, alpha);
+    const Direction &wo = local.wo, &wi = local.wi;
     if (function.kind == Kind::density || function.kind == Kind::pair)
         return beckmann_exponent({wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]}, alpha);
     const auto angle = [&](const Direction& w) {  // cot^2 of the stretched angle
@@ -25,9 +26,9 @@ double exponent(const Function& function, const RowReader& reader, const double*
     };
     // Seen from above sigma and the shadowing terms are sums of 1 and what the exponential leaves: its error is theirs no
     // more.
-    const bool from_above = wo[2] >= 0 && (!reader.has_wi() || wi[2] >= 0);
-    if (from_above && function.name != "vndf_beckmann_lambda") return 0;
-    return reader.has_wi() ? std::max(angle(wo), angle(wi)) : angle(wo);
+    const bool from_above = wo[2] >= 0 && (!local.has_wi || wi[2] >= 0);
+    if (from_above && !function.name.starts_with("vndf_beckmann_lambda")) return 0;
+    return local.has_wi ? std::max(angle(wo), angle(wi)) : angle(wo);
 }
 
 // How much wo . wm loses to cancellation, which literal arguments do not help.
@@ -36,6 +37,18 @@ double cancellation(const RowReader& reader, const double* row) {
     const Direction o = reader.wo(row), m = reader.wm(row);
     const double terms = std::abs(o[0] * m[0]) + std::abs(o[1] * m[1]) + std::abs(o[2] * m[2]);
     return std::max(1.0, terms / std::abs(dot(o, m)));
+}
+
+// What n . w, in twice the precision, has lost where it is all but 0: 1 as long as more than a unit is left.
+double grazing(const RowReader& reader, const double* row, double unit) {
+    if (!reader.has_n()) return 1;
+    const Direction n = reader.n(row);
+    double lost = 1;
+    for (const auto& [has, w] : {std::pair{true, reader.wo(row)},
+                                 {reader.has_wm(), reader.wm(row)},
+                                 {reader.has_wi(), reader.wi(row)}})
+        if (has && dot(n, w) != 0) lost = std::max(lost, unit / std::abs(dot(n, w)));
+    return lost;
 }
 
 // Whether so little is left of the cosine between wi and the facet along h = wo + eta wi, in the Jacobian of their
@@ -108,7 +121,7 @@ double error_of(const Judge& j, const double* row, const R* exact, const R& size
         return settle(static_cast<double>(difference), unit * (static_cast<double>(size) + condition));
     }
     if (size < smallest) return std::numeric_limits<double>::infinity();
-    double allowance = lost;
+    double allowance = lost * grazing(j.reader, row, unit);
     if (j.function.unit == Unit::exponent) allowance *= 1 + 2 * exponent(j.function, j.reader, row);
     return settle(static_cast<double>(difference / size), unit * allowance);
 }

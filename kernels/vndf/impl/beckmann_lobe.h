@@ -6,6 +6,7 @@
 #define VNDF_IMPL_BECKMANN_LOBE_H
 
 #include "beckmann_slopes.h"
+#include "world.h"
 
 VNDF_BEGIN
 
@@ -38,7 +39,7 @@ VNDF_FN struct vndf_impl_pair vndf_impl_beckmann_square(VNDF_REAL3 wo, VNDF_REAL
 }
 
 // Squares are formed 2^40 times larger: they keep full precision down to wo.x = 1e-19 for every alpha in the domain. l
-// carries the rounding errors of its products along, since a product of two G1 has no units to spare.
+// carries the rounding errors of its products and of the root along, since a product of two G1 has no units to spare.
 VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF_REAL alpha_x,
                                                              VNDF_REAL alpha_y) {
     struct vndf_beckmann_lobe lobe;
@@ -58,6 +59,7 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.ex = tilted ? x * rcp : VNDF_R(1.0);
     lobe.ey = tilted ? y * rcp : VNDF_R(0.0);
     VNDF_REAL low = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
+    low = VNDF_FMA(VNDF_R(0.5), VNDF_FMA(-root, root, square), low);
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
     lobe.rcp_l = tilted ? up * rcp : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
@@ -121,8 +123,10 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_other(struct vndf_beckmann_
 // wi exchanged.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_both(struct vndf_beckmann_lobe o, struct vndf_beckmann_lobe i) {
     VNDF_REAL up = VNDF_R(1099511627776.0), kz_o = up * o.wo_z, kz_i = up * i.wo_z;
-    VNDF_REAL unseen =
-        kz_i * (o.l * vndf_impl_beckmann_hidden(o)) + kz_o * (i.l * vndf_impl_beckmann_hidden(i));
+    VNDF_REAL hidden_o = vndf_impl_beckmann_hidden(o);
+    // Made dependent on wo's, which is positive, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
+    i.rcp_l = hidden_o > VNDF_R(0.0) ? i.rcp_l : VNDF_R(0.0);
+    VNDF_REAL unseen = kz_i * (o.l * hidden_o) + kz_o * (i.l * vndf_impl_beckmann_hidden(i));
     return kz_o * i.wo_z + unseen;
 }
 
@@ -147,33 +151,18 @@ VNDF_FN struct vndf_impl_pair vndf_impl_hidden_exponent(struct vndf_impl_pair sq
     return exponent;
 }
 
-// weight D / sigma(wo), as a number and a power of two, for a normal (tx, ty, 1) z, z > 0: 1 / height^4 of D is `rise`^2,
-// and cosine is wo . normal, exact to rounding. Behind the surface the exponents of D and sigma combine: with the slope
-// |a| + tau along wo and y across, q - a^2 = tau (2 |a| + tau) + y^2. A normal that faces away (tau < 0) occurs only as the
-// half vector of two rounded directions.
-VNDF_FN struct vndf_impl_power vndf_impl_beckmann_visible(struct vndf_beckmann_lobe lobe, VNDF_REAL tx,
-                                                          VNDF_REAL ty, VNDF_REAL z, VNDF_REAL cosine,
-                                                          int rounded, VNDF_REAL rise, VNDF_REAL weight) {
+// weight D / sigma(wo), as a number and a power of two, whose exponentials leave e^-exponent: q of D, and behind the surface
+// q - a^2. 1 / height^4 of D is `rise`^2.
+VNDF_FN struct vndf_impl_power vndf_impl_beckmann_share(struct vndf_beckmann_lobe lobe,
+                                                        struct vndf_impl_pair exponent, VNDF_REAL rise,
+                                                        VNDF_REAL weight) {
     int front = lobe.slopes.front, level = lobe.l > VNDF_R(0.0);
-    // Slopes beyond 2^62 (double: 2^510) have the density 0.
-    VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
-    VNDF_REAL sx = tx * lobe.rcp_x, sy = ty * lobe.rcp_y;
-    VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
-    VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
-    // tau = cosine / (z l): both times a power of two, since the product may underflow.
-    VNDF_REAL l = level ? lobe.l : VNDF_R(1.0),
-              tau = cosine / VNDF_IMPL_ROOT_LEAST / (z / VNDF_IMPL_ROOT_LEAST * l);
-    VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
-    VNDF_REAL across =
-        vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, lobe.ey, sy, lobe.ex)), limit);
-    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), lobe.slopes.steep, lean), across * across);
-    struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(lobe.square, q);
-    int away = rounded && !front && tau < VNDF_R(0.0);
-    VNDF_REAL exponent = front ? q : (away ? hidden.head : steep);
     // Powers of two apart: below the horizon l I(a) may be as small as weight.
     // Each is made dependent on the one before, which is positive, so that LLVM's SLP pass does not pack them
     // (impl/stretch.h).
-    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_front_sigma(lobe) : l), scale;
+    struct vndf_impl_power area = vndf_impl_split(front ? vndf_impl_beckmann_front_sigma(lobe)
+                                                        : (level ? lobe.l : VNDF_R(1.0))),
+                           scale;
     struct vndf_impl_power least =
         vndf_impl_split(area.part > VNDF_R(0.0) ? lobe.slopes.hidden : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
@@ -182,25 +171,56 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_visible(struct vndf_beckmann_l
     scale.part = VNDF_1_PI * share * (up.part * lobe.rcp_x) * (up.part * lobe.rcp_y);
     scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
     scale.part = front || level ? scale.part : VNDF_R(0.0);
-    return vndf_impl_exp_power(-exponent, away ? -hidden.tail : VNDF_R(0.0), scale);
+    return vndf_impl_exp_power(-exponent.head, -exponent.tail, scale);
 }
 
-// weight D(h) / sigma(wo) of the half vector h = wo + wi; 0 where it points to or below the horizon.
-VNDF_FN struct vndf_impl_power vndf_impl_beckmann_half(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi,
-                                                       VNDF_REAL weight) {
-    VNDF_REAL x = lobe.wo_x + wi.x, y = lobe.wo_y + wi.y, z = lobe.wo_z + wi.z;
-    // wo . h with the rounding errors of h: near wi = -wo it is the square of a small h.
-    struct vndf_impl_pair dot = vndf_impl_dot_pair(lobe.wo_x, lobe.wo_y, lobe.wo_z, x, y, z);
-    VNDF_REAL low = VNDF_FMA(lobe.wo_x, vndf_impl_sum_error(lobe.wo_x, wi.x, x),
-                             VNDF_FMA(lobe.wo_y, vndf_impl_sum_error(lobe.wo_y, wi.y, y),
-                                      lobe.wo_z * vndf_impl_sum_error(lobe.wo_z, wi.z, z)));
-    VNDF_REAL cosine = dot.head + (dot.tail + low), height = vndf_impl_beckmann_height(z);
+// The same for a normal (tx, ty, 1) z, z > 0; cosine is wo . normal, exact to rounding. Behind the surface the exponents of
+// D and sigma combine: with the slope |a| + tau along wo and y across, q - a^2 = tau (2 |a| + tau) + y^2. A normal that
+// faces away (tau < 0) occurs only as the half vector of two rounded directions.
+VNDF_FN struct vndf_impl_power vndf_impl_beckmann_visible(struct vndf_beckmann_lobe lobe, VNDF_REAL tx,
+                                                          VNDF_REAL ty, VNDF_REAL z, VNDF_REAL cosine,
+                                                          int rounded, VNDF_REAL rise, VNDF_REAL weight) {
+    int front = lobe.slopes.front;
+    // Slopes beyond 2^62 (double: 2^510) have the density 0.
+    VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL sx = tx * lobe.rcp_x, sy = ty * lobe.rcp_y;
+    VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
+    VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
+    // tau = cosine / (z l): both times a power of two, since the product may underflow.
+    VNDF_REAL l = lobe.l > VNDF_R(0.0) ? lobe.l : VNDF_R(1.0),
+              tau = cosine / VNDF_IMPL_ROOT_LEAST / (z / VNDF_IMPL_ROOT_LEAST * l);
+    VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
+    VNDF_REAL across =
+        vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, lobe.ey, sy, lobe.ex)), limit);
+    VNDF_REAL steep = VNDF_FMA(lean, VNDF_FMA(VNDF_R(2.0), lobe.slopes.steep, lean), across * across);
+    struct vndf_impl_pair hidden = vndf_impl_hidden_exponent(lobe.square, q);
+    int away = rounded && !front && tau < VNDF_R(0.0);
+    struct vndf_impl_pair left;
+    left.head = front ? q : (away ? hidden.head : steep);
+    left.tail = away ? hidden.tail : VNDF_R(0.0);
+    return vndf_impl_beckmann_share(lobe, left, rise, weight);
+}
+
+// weight D(h) / sigma(wo) of a normal h of any length, with wo . h; 0 where it points to or below the horizon.
+VNDF_FN struct vndf_impl_power vndf_impl_beckmann_along(struct vndf_beckmann_lobe lobe, VNDF_REAL x,
+                                                        VNDF_REAL y, VNDF_REAL z, VNDF_REAL cosine,
+                                                        int rounded, VNDF_REAL weight) {
+    VNDF_REAL height = vndf_impl_beckmann_height(z);
     int above = z > VNDF_R(0.0);
     // ty waits for tx, which is finite: side by side they would be packed (impl/stretch.h).
     VNDF_REAL tx = x / height, ty = (tx <= VNDF_REAL_MAX ? y : VNDF_R(0.0)) / height;
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
-    return vndf_impl_beckmann_visible(lobe, tx, ty, height, above ? cosine : VNDF_R(0.0), 1, rise,
+    return vndf_impl_beckmann_visible(lobe, tx, ty, height, above ? cosine : VNDF_R(0.0), rounded, rise,
                                       above ? weight : VNDF_R(0.0));
+}
+
+// The same of the half vector wo + wi.
+VNDF_FN struct vndf_impl_power vndf_impl_beckmann_half(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi,
+                                                       VNDF_REAL weight) {
+    VNDF_REAL3 wo = VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z);
+    struct vndf_impl_half_sum h = vndf_impl_half_sum_of(wo, wi);
+    // With the rounding errors of h: near wi = -wo it is the square of a small h.
+    return vndf_impl_beckmann_along(lobe, h.head.x, h.head.y, h.head.z, vndf_impl_half_dot(wo, h), 1, weight);
 }
 
 #undef VNDF_IMPL_STEEP_LIMIT

@@ -12,6 +12,19 @@ VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VND
     return VNDF_FMA(a, b, -cd) + VNDF_FMA(-c, d, cd);
 }
 
+struct vndf_impl_vector {
+    VNDF_REAL x, y, z;
+};
+
+// n x w, each component with the error of one rounding.
+VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
+    struct vndf_impl_vector c;
+    c.x = vndf_impl_difference_of_products(n.y, w.z, n.z, w.y);
+    c.y = vndf_impl_difference_of_products(n.z, w.x, n.x, w.z);
+    c.z = vndf_impl_difference_of_products(n.x, w.y, n.y, w.x);
+    return c;
+}
+
 // The rounding error of s = a + b, exactly (Knuth).
 VNDF_FN VNDF_REAL vndf_impl_sum_error(VNDF_REAL a, VNDF_REAL b, VNDF_REAL s) {
     VNDF_REAL t = s - a;

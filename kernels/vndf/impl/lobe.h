@@ -14,6 +14,7 @@
 #ifndef VNDF_IMPL_LOBE_H
 #define VNDF_IMPL_LOBE_H
 
+#include "exact.h"
 #include "stretch.h"
 
 VNDF_BEGIN
@@ -29,8 +30,9 @@ struct vndf_impl_axis {
 
 // What stands for l = 0: nothing beside r + z, and not lost below the surface.
 VNDF_FN VNDF_REAL vndf_impl_no_length(VNDF_REAL z) {
-    VNDF_REAL above = VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10);
-    return z >= VNDF_R(0.0) ? above : VNDF_R(8.67361737988403547e-19);
+    return z < VNDF_R(0.0)
+               ? VNDF_R(8.67361737988403547e-19)
+               : (VNDF_DOUBLE ? VNDF_R(7.88860905221011805e-31) : VNDF_R(9.31322574615478516e-10));
 }
 
 VNDF_FN struct vndf_impl_axis vndf_impl_axis_of(VNDF_REAL l2, VNDF_REAL z) {
@@ -65,10 +67,6 @@ struct vndf_ggx_lobe {
 VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
     return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
 }
-
-struct vndf_impl_vector {
-    VNDF_REAL x, y, z;
-};
 
 // e + (x, y), e at azimuth u1 and height z, |e|^2 = square. Where the two nearly cancel, only the rounding of |e| is wrong:
 // |e|^2 - l2 = z (2 z_v - z), or `steep` where that cancels, corrects it.

@@ -60,10 +60,9 @@ struct vndf_impl_half {
     VNDF_REAL z, length2, q, scale;
     VNDF_REAL q_slope;  // half the 1-norm of dq/dh, for z > 0
 };
-VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL alpha_x,
-                                                VNDF_REAL alpha_y) {
+VNDF_FN struct vndf_impl_half vndf_impl_half_along(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
+                                                   VNDF_REAL alpha_y) {
     struct vndf_impl_half h;
-    VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
     VNDF_REAL largest = vndf_impl_max(vndf_impl_max(vndf_impl_abs(x), vndf_impl_abs(y)), vndf_impl_abs(z));
     h.scale = vndf_impl_scale(largest);
     x *= h.scale;
@@ -78,6 +77,10 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     h.q = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, h.z * h.z));
     h.q_slope = VNDF_FMA(vndf_impl_abs(sx), rcp_x, VNDF_FMA(vndf_impl_abs(sy), rcp_y, h.z));
     return h;
+}
+VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL alpha_x,
+                                                VNDF_REAL alpha_y) {
+    return vndf_impl_half_along(wo.x + wi.x, wo.y + wi.y, wo.z + wi.z, alpha_x, alpha_y);
 }
 
 // D / (2 n) of the half vector, for a normaliser n.

@@ -8,7 +8,7 @@
  {"pointwise, front"}},
     {"Beckmann: a half vector that faces away without the rounding of its exponent",
      "impl/beckmann_lobe.h",
-     "away ? -hidden.tail : VNDF_R(0.0)",
+     "away ? hidden.tail : VNDF_R(0.0)",
      "VNDF_R(0.0)",
      "vndf_beckmann_pdf_wi",
      {"pointwise, maximum"}},

@@ -1,0 +1,13 @@
+// Seeded mistakes in beckmann_cosines.h: rows of Mutant (mutants.h).
+{"Beckmann by cosines: q - a^2 begun with the larger square",
+ "beckmann_cosines.h",
+ "gap = o2 < m2 ?",
+ "gap = o2 > m2 ?",
+ "vndf_beckmann_pdf_wi_cosines",
+ {"pointwise, maximum"}},
+    {"Beckmann by cosines: behind the surface the exponent of D alone",
+     "beckmann_cosines.h",
+     "square = o.z < VNDF_R(0.0) ?",
+     "square = o.z < VNDF_R(-2.0) ?",
+     "vndf_beckmann_pdf_wm_cosines",
+     {"pointwise, maximum"}},

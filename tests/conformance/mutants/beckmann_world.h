@@ -1,0 +1,13 @@
+// Seeded mistakes in beckmann_world.h: rows of Mutant (mutants.h).
+{"Beckmann about n: all of a normal's slope across wo",
+ "beckmann_world.h",
+ "return VNDF_MAKE3(x, vndf_impl_length(across), z);",
+ "return VNDF_MAKE3(x, vndf_impl_length(m), z);",
+ "vndf_beckmann_pdf_wm_world",
+ {"pointwise, maximum", "integral"}},
+    {"Beckmann about n: no Jacobian of the reflection",
+     "beckmann_world.h",
+     "vndf_impl_half_dot(wo, sum), 0, VNDF_R(0.25)",
+     "vndf_impl_half_dot(wo, sum), 0, VNDF_R(1.0)",
+     "vndf_beckmann_pdf_wi_world",
+     {"pointwise, maximum", "integral"}},

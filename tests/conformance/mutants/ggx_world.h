@@ -1,0 +1,13 @@
+// Seeded mistakes in ggx_world.h: rows of Mutant (mutants.h).
+{"about n: the density of reflections over the area that the normal sees",
+ "ggx_world.h",
+ "vndf_impl_ggx_twice_sigma(o.x, VNDF_R(0.0), o.z, a, a), a, a);",
+ "vndf_impl_ggx_twice_sigma(m.x, VNDF_R(0.0), m.z, a, a), a, a);",
+ "vndf_ggx_pdf_wi_world",
+ {"pointwise, maximum", "integral"}},
+    {"about n: the weight of the way back",
+     "ggx_world.h",
+     "vndf_ggx_weight(o, vndf_impl_about(vndf_impl_next(n, o), wi)",
+     "vndf_ggx_weight(vndf_impl_about(vndf_impl_next(n, o), wi), o",
+     "vndf_ggx_weight_world",
+     {"pointwise, maximum"}},
