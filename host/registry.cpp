@@ -118,6 +118,15 @@ const std::vector<LobeFunction>& lobe_functions() {
     return all;
 }
 
+const std::vector<BsdfFunction>& bsdf_functions() {
+    static const std::vector<BsdfFunction> all = {
+#define VNDF_BSDF(name, arguments, in_float, in_double, source) \
+    {#name, arguments, source, in_float, in_double},
+#include "../kernels/registry.def"
+    };
+    return all;
+}
+
 double length_bound(std::string_view result) {
     return result == "WI" ? VNDF_BOUND_LENGTH_WI : VNDF_BOUND_LENGTH_WM;
 }

@@ -70,6 +70,14 @@ struct LobeFunction {
 };
 const std::vector<LobeFunction>& lobe_functions();
 
+// A function of a material (kernels/vndf/bsdf.h), which has the choices and effects of its program: what is promised for each
+// of them.
+struct BsdfFunction {
+    std::string name, signature, source;
+    double float_bound = 0, double_bound = 0;
+};
+const std::vector<BsdfFunction>& bsdf_functions();
+
 // The function of exactly this name, or nullptr.
 const Function* find_function(std::string_view name);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reference/materials.h"
 #include "reference/terms.h"
 
 namespace vndf::reference {
@@ -315,6 +316,31 @@ R jacobian_refract_of(Reader<R> in) {
 }
 
 template <class R>
+R fresnel_conductor_of(Reader<R> in) {
+    const R c = in.scalar(), eta = in.scalar();
+    return fresnel_conductor(c, eta, in.scalar());
+}
+template <class R>
+R fresnel_schlick_of(Reader<R> in) {
+    const R c = in.scalar(), f0 = in.scalar();
+    return fresnel_schlick(c, f0, in.scalar());
+}
+template <class R>
+R fresnel_f82_of(Reader<R> in) {
+    const R c = in.scalar(), f0 = in.scalar();
+    return fresnel_f82(c, f0, in.scalar());
+}
+template <class R>
+R lambert_pdf_of(Reader<R> in) {
+    return lambert_pdf(in.vector());
+}
+template <class R>
+Vec3<R> lambert_direction_of(Reader<R> in) {
+    const R u1 = in.u();
+    return lambert_direction(u1, in.u());
+}
+
+template <class R>
 using Slope2 = R (*)(const R&, const R&);
 
 // clang-format off
@@ -330,7 +356,7 @@ constexpr Entry<R> entries[] = {
     VNDF_BOTH(ndf) VNDF_BOTH(p22) VNDF_BOTH(lambda) VNDF_BOTH(sigma) VNDF_BOTH(g1) VNDF_BOTH(g2)
     VNDF_BOTH(g2_separable) VNDF_BOTH(pdf_wm) VNDF_BOTH(pdf_wi) VNDF_BOTH(pdf_wm_walter2007)
 #undef VNDF_BOTH
-    VNDF_ENTRIES(ggx, Ggx, weight)
+    VNDF_ENTRIES(ggx, Ggx, weight) VNDF_ENTRIES(beckmann, Beckmann, weight)
 #undef VNDF_ENTRIES
     {"vndf_ggx_weight_lobe", evaluate_term<R, Terms<Ggx, R>::weight>},
     {"vndf_ggx_pdf_wm_lobe", evaluate_term<R, Terms<Ggx, R>::pdf_wm>},
@@ -351,6 +377,11 @@ constexpr Entry<R> entries[] = {
     {"vndf_beckmann_slope_pdf", evaluate_term<R, of_cosine_x<R, static_cast<Slope2<R>>(beckmann_slope_pdf<R>)>>},
     {"vndf_beckmann_slope_cdf", evaluate_term<R, of_cosine_x<R, beckmann_slope_cdf<R>>>},
     {"vndf_beckmann_slope_cdf_inverse", evaluate_term<R, beckmann_slope_cdf_inverse_of<R>>},
+    {"vndf_fresnel_conductor", evaluate_term<R, fresnel_conductor_of<R>>},
+    {"vndf_fresnel_schlick", evaluate_term<R, fresnel_schlick_of<R>>},
+    {"vndf_fresnel_f82", evaluate_term<R, fresnel_f82_of<R>>},
+    {"vndf_lambert_pdf_wi", evaluate_term<R, lambert_pdf_of<R>>},
+    {"vndf_lambert_sample_wi", evaluate_vector<R, lambert_direction_of<R>>},
     {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},
     {"vndf_refract", evaluate_vector<R, refract_of<R>>},
     {"vndf_jacobian_reflect", evaluate_term<R, jacobian_reflect_of<R>>},

@@ -16,6 +16,7 @@
 
 #define VNDF_SCALARS_U(S) S(u1) S(u2)
 #define VNDF_CALL_U VNDF_MAKE2(u1, u2)
+#define VNDF_ARGUMENTS_U "u"
 
 #define VNDF_SCALARS_WO_ALPHA_U(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS2(S, alpha) VNDF_SCALARS_U(S)
 #define VNDF_CALL_WO_ALPHA_U VNDF_CALL3(wo), VNDF_CALL2(alpha), VNDF_CALL_U
@@ -64,6 +65,22 @@
 #define VNDF_SCALARS_COS_THETA_U1(S) S(cos_theta) S(u1)
 #define VNDF_CALL_COS_THETA_U1 cos_theta, u1
 #define VNDF_ARGUMENTS_COS_THETA_U1 "cos_theta, u1"
+
+#define VNDF_SCALARS_COS_THETA_ETA_K(S) S(cos_theta) S(eta) S(k)
+#define VNDF_CALL_COS_THETA_ETA_K cos_theta, eta, k
+#define VNDF_ARGUMENTS_COS_THETA_ETA_K "cos_theta, eta, k"
+
+#define VNDF_SCALARS_COS_THETA_F0_F90(S) S(cos_theta) S(f0) S(f90)
+#define VNDF_CALL_COS_THETA_F0_F90 cos_theta, f0, f90
+#define VNDF_ARGUMENTS_COS_THETA_F0_F90 "cos_theta, f0, f90"
+
+#define VNDF_SCALARS_COS_THETA_F0_TINT(S) S(cos_theta) S(f0) S(tint)
+#define VNDF_CALL_COS_THETA_F0_TINT cos_theta, f0, tint
+#define VNDF_ARGUMENTS_COS_THETA_F0_TINT "cos_theta, f0, tint"
+
+#define VNDF_SCALARS_WI(S) VNDF_SCALARS3(S, wi)
+#define VNDF_CALL_WI VNDF_CALL3(wi)
+#define VNDF_ARGUMENTS_WI "wi"
 
 #define VNDF_SCALARS_WO_WM(S) VNDF_SCALARS3(S, wo) VNDF_SCALARS3(S, wm)
 #define VNDF_CALL_WO_WM VNDF_CALL3(wo), VNDF_CALL3(wm)

@@ -72,12 +72,12 @@ VNDF_FN VNDF_REAL vndf_beckmann_g1(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     return w.z > VNDF_R(0.0) ? vndf_impl_min(w.z / vndf_beckmann_sigma(w, alpha), VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
-// Height-correlated masking and shadowing of a reflection.
-// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
-// wo, wi: unit vectors, local frame.
-// return: in [0, 1]; 0 unless both are above the horizon.
-// Accuracy: 8 eps; double 9.
-VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+// A quarter of 1 + Lambda(wo) and of 1 + Lambda(wo) + Lambda(wi), so that the sum of two poles is a number.
+struct vndf_impl_lambdas {
+    VNDF_REAL visible, sum;
+};
+VNDF_FN struct vndf_impl_lambdas vndf_impl_beckmann_lambdas(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_impl_lambdas lambdas;
     // wi's terms are made dependent on wo's, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
     // Next to nothing counts as little: it is slow where it is no normal number.
     VNDF_REAL little = VNDF_EPSILON * VNDF_EPSILON;
@@ -86,10 +86,21 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
                                     lambda_o >= VNDF_R(0.0) ? alpha.y : VNDF_R(1.0));
     VNDF_REAL lambda_i = vndf_impl_max(vndf_impl_beckmann_upper_lambda(wi, alpha_i), little),
               quarter = VNDF_R(0.25);
-    // A quarter of everything, so that the sum of two poles is a number. A sum of equals: the same bits for wo and wi
-    // exchanged.
-    VNDF_REAL sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
-    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(quarter / sum, VNDF_R(1.0)) : VNDF_R(0.0);
+    lambdas.visible = VNDF_FMA(quarter, lambda_o, quarter);
+    // A sum of equals: the same bits for wo and wi exchanged.
+    lambdas.sum = VNDF_FMA(quarter, lambda_i, quarter * lambda_o) + quarter;
+    return lambdas;
+}
+
+// Height-correlated masking and shadowing of a reflection.
+// Source: Heitz 2014, Equation 99: 1 / (1 + Lambda(wo) + Lambda(wi)).
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    VNDF_REAL sum = vndf_impl_beckmann_lambdas(wo, wi, alpha).sum;
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(VNDF_R(0.25) / sum, VNDF_R(1.0))
+                                                   : VNDF_R(0.0);
 }
 
 // Separable masking and shadowing: G1(wo) G1(wi).
@@ -99,6 +110,17 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alph
 // Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_beckmann_g1(wo, alpha) * vndf_beckmann_g1(wi, alpha);
+}
+
+// The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_beckmann_pdf_wi of a perfectly conducting mirror.
+// Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = (1 + Lambda(wo)) / (1 + Lambda(wo) + Lambda(wi)).
+// wo, wi: unit vectors, local frame.
+// return: in [0, 1]; 0 unless both are above the horizon.
+// Accuracy: 8 eps; double 9.
+VNDF_FN VNDF_REAL vndf_beckmann_weight(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    struct vndf_impl_lambdas lambdas = vndf_impl_beckmann_lambdas(wo, wi, alpha);
+    VNDF_REAL weight = lambdas.visible / lambdas.sum;
+    return vndf_impl_min(wo.z, wi.z) > VNDF_R(0.0) ? vndf_impl_min(weight, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // The distribution of visible normals: the density of every vndf_beckmann_sample_wm_* but walter2007.

@@ -55,7 +55,7 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_polygon(struct vndf_ggx_lobe v) {
 
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023_polygon(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     struct vndf_impl_bound bound = vndf_impl_ggx_polygon(v);
-    return vndf_impl_bounded_reflection(v, bound.height, vndf_impl_bounded_half(v, bound, u));
+    return vndf_impl_lobe_reflection(v, bound.height, vndf_impl_bounded_half(v, bound, u));
 }
 
 // A reflection of wo by the cap under the polygon bound.

@@ -32,6 +32,8 @@
 //   anything finite   gives a finite result, whatever its size or sign. Inside the domain nothing on the way to it
 //           overflows or is divided by 0: results do not hang on infinities.
 //
+// Materials: bsdf.h, which this header does not include, since its switches (effects.h) are a program's own.
+//
 // Precision and policy: see config.h (VNDF_REAL, VNDF_MATH).
 #ifndef VNDF_H
 #define VNDF_H
@@ -59,5 +61,10 @@
 #include "beckmann_heitz_deon2014.h"
 #include "beckmann_jakob2014.h"
 #include "beckmann_walter2007.h"
+
+#include "bsdf_lambert.h"
+#include "fresnel_conductor.h"
+#include "fresnel_f82.h"
+#include "fresnel_schlick.h"
 
 #endif

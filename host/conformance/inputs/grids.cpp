@@ -18,7 +18,7 @@ bool uses_wo(const Function& function) {
     return uses(function, {"wo_x", "w_x", "cos_theta"});
 }
 bool uses_normal(const Function& function) {
-    return uses(function, {"wm_x", "wi_x", "slope_x", "x"});
+    return uses(function, {"wm_x", "wi_x", "slope_x", "x", "k"});
 }
 
 // For functions of (wo, wi, eta): every other wi becomes the refracted direction where there is one.
@@ -109,7 +109,7 @@ std::vector<Point> hard_points(const Function& function) {
     std::vector<std::array<double, 2>> pairs;
     for (const double u1 : u)
         for (const double u2 : u) pairs.push_back({u1, u2});
-    if (!uses(function, {"u1", "u2"})) pairs = {{.5, .5}};
+    if (!uses(function, {"u1", "u2", "f0"})) pairs = {{.5, .5}};
     std::vector<Direction> directions;
     for (const double phi : {0.7, 0.0}) {
         if (phi == 0 && axes.size() > 1) continue;  // six axes make up for it

@@ -104,6 +104,10 @@ double Point::scalar(std::string_view name) const {
                                        {"u1", u[0]},
                                        {"u2", u[1]},
                                        {"eta", eta},
+                                       {"k", std::abs(x)},
+                                       {"f0", u[0]},
+                                       {"f90", u[1]},
+                                       {"tint", u[1]},
                                        {"cos_theta", cos_theta},
                                        {"x", x}})
         if (name == known) return value;

@@ -17,7 +17,7 @@ using Direction = std::array<double, 3>;
 
 // The directions agree with each other: wm
 // is a normal of the lobe (alpha), wi the reflection of wo about it, slope and x the slopes of wm, w = wo,
-// cos_theta = wo.z; with a world-space n all directions are turned into its frame.
+// cos_theta = wo.z; k a size of x, f0 and f90 or tint the two u; with a world-space n all directions are turned into its frame.
 struct Point {
     Direction wo{0, 0, 1}, n{0, 0, 1}, wm{0, 0, 1}, wi{0, 0, 1};
     double cos_theta = 1;  // about n

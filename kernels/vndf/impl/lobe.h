@@ -148,6 +148,34 @@ VNDF_FN struct vndf_impl_sample vndf_impl_cap_normal(struct vndf_ggx_lobe v, str
     return m;
 }
 
+// The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k
+// wo.z + |v|.
+VNDF_FN struct vndf_impl_sample vndf_impl_lobe_reflection(struct vndf_ggx_lobe v, VNDF_REAL height,
+                                                             struct vndf_impl_vector h) {
+    struct vndf_impl_sample o;
+    // Reflect about g of any length: no rounding of g can tilt the mirror.
+    VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
+    VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
+    VNDF_REAL cosine = VNDF_FMA(v.wo_x, gx, VNDF_FMA(v.wo_y, gy, v.wo_z * h.z));
+    VNDF_REAL twice = VNDF_R(2.0) * cosine / g2;
+    o.x = VNDF_FMA(twice, gx, -v.wo_x);
+    o.y = VNDF_FMA(twice, gy, -v.wo_y);
+    o.z = VNDF_FMA(twice, h.z, -v.wo_z);
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), length = VNDF_SQRT(o2),
+              rcp = VNDF_R(1.0) / length;
+    o.x *= rcp;
+    o.y *= rcp;
+    o.z *= rcp;
+    VNDF_REAL ratio = g2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
+    // Made dependent, so that the two quotients are not packed (impl/stretch.h); the other choice is never taken.
+    VNDF_REAL n = height / v.axis.weight, area = n < VNDF_R(0.0) ? VNDF_R(1.0) : v.alpha_x * v.alpha_y;
+    VNDF_REAL density = (VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * ratio * length) / area;
+    VNDF_REAL pdf = vndf_impl_bounded_quotient(density, n);
+    o.pdf = height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
+}
+
 // What the maps by disks and slopes need of a lobe: the azimuth of v, and of theta its cosine z, its sine, P = 1 + z and Q = 1
 // - z, never as differences, and the root of P, which keeps its digits where P underflows.
 struct vndf_impl_polar {

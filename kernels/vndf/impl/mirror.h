@@ -2,6 +2,7 @@
 #ifndef VNDF_IMPL_MIRROR_H
 #define VNDF_IMPL_MIRROR_H
 
+#include "exact.h"
 #include "stretch.h"
 
 VNDF_BEGIN
@@ -34,6 +35,24 @@ VNDF_FN struct vndf_impl_mirror vndf_impl_mirror_of(VNDF_REAL wo_x, VNDF_REAL wo
     o.y = VNDF_FMA(twice, gy, -wo_y);
     o.z = VNDF_FMA(twice, hz, -wo_z);
     return o;
+}
+
+// The reflection of wo about a sampled normal, a unit vector, with its density: that of the normal over 4 wo . m.
+VNDF_FN struct vndf_impl_sample vndf_impl_mirrored(VNDF_REAL wo_x, VNDF_REAL wo_y, VNDF_REAL wo_z,
+                                                   struct vndf_impl_sample m) {
+    struct vndf_impl_sample o;
+    VNDF_REAL cosine = vndf_impl_max(vndf_impl_dot(wo_x, wo_y, wo_z, m.x, m.y, m.z), VNDF_R(0.0));
+    VNDF_REAL twice = cosine + cosine;
+    o.x = VNDF_FMA(twice, m.x, -wo_x);
+    o.y = VNDF_FMA(twice, m.y, -wo_y);
+    o.z = VNDF_FMA(twice, m.z, -wo_z);
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    o.x *= rcp;
+    o.y *= rcp;
+    o.z *= rcp;
+    o.pdf = vndf_impl_finite(vndf_impl_bounded_quotient(VNDF_R(0.25) * m.pdf, cosine));
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
 }
 
 // Half vector h = wo + wi of the vectors as given, times a power of two `scale`; its squared length; q of D.

@@ -1,0 +1,162 @@
+// The switches of a material (bsdf.h): what a program holds and what it leaves out. Every switch may be set with -D or before
+// the include; a value that is not listed here is an error. The list for programs is kernels/effects.def.
+//
+// A choice is one of several models and changes results:
+//   VNDF_NDF       ggx (default), beckmann
+//   VNDF_SAMPLING  how the conductor's reflections are drawn: plain, visible normals mirrored; bounded (default), from the
+//                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h. Beckmann has plain alone.
+//   VNDF_FRESNEL   of the conductor: none, it reflects everything; conductor, eta and k; schlick (default), f0 and f90; f82,
+//                  f0 and the tint at 82 degrees
+//   VNDF_MASKING   of the conductor: correlated (default), separable
+//
+// An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
+// not call for it have the same bits:
+//
+// For every renderer, by what its scene holds:
+//   VNDF_CONDUCTOR       the rough conductor; 0: every material is Lambert's
+//   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1
+//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material
+//   VNDF_TINT            a factor on the conductor; 0: every tint is 1
+//   VNDF_BACK_FACING     surfaces with two sides; 0: none is seen from behind, or those are black
+// For renderers whose normals are interpolated or mapped:
+//   VNDF_SHADING_NORMAL  a geometric normal beside the shading one; 0: both are the same
+//   VNDF_TERMINATOR      the shadow terminator softened, where there are two normals; 0: not softened
+#ifndef VNDF_EFFECTS_H
+#define VNDF_EFFECTS_H
+
+#include "config.h"
+
+// The values allowed, as in config.h.
+#define VNDF_NDF_IS_ggx 1
+#define VNDF_NDF_IS_beckmann 2
+#define VNDF_SAMPLING_IS_plain 1
+#define VNDF_SAMPLING_IS_bounded 2
+#define VNDF_SAMPLING_IS_conic 3
+#define VNDF_FRESNEL_IS_none 1
+#define VNDF_FRESNEL_IS_conductor 2
+#define VNDF_FRESNEL_IS_schlick 3
+#define VNDF_FRESNEL_IS_f82 4
+#define VNDF_MASKING_IS_correlated 1
+#define VNDF_MASKING_IS_separable 2
+
+#ifndef VNDF_NDF
+#define VNDF_NDF ggx
+#endif
+#ifndef VNDF_SAMPLING
+#if VNDF_CAT(VNDF_NDF_IS_, VNDF_NDF) == 2
+#define VNDF_SAMPLING plain
+#else
+#define VNDF_SAMPLING bounded
+#endif
+#endif
+#ifndef VNDF_FRESNEL
+#define VNDF_FRESNEL schlick
+#endif
+#ifndef VNDF_MASKING
+#define VNDF_MASKING correlated
+#endif
+#ifndef VNDF_CONDUCTOR
+#define VNDF_CONDUCTOR 1
+#endif
+#ifndef VNDF_LAMBERT
+#define VNDF_LAMBERT 1
+#endif
+#ifndef VNDF_ANISOTROPIC
+#define VNDF_ANISOTROPIC 1
+#endif
+#ifndef VNDF_TINT
+#define VNDF_TINT 1
+#endif
+#ifndef VNDF_BACK_FACING
+#define VNDF_BACK_FACING 1
+#endif
+#ifndef VNDF_SHADING_NORMAL
+#define VNDF_SHADING_NORMAL 1
+#endif
+#ifndef VNDF_TERMINATOR
+#define VNDF_TERMINATOR 1
+#endif
+
+// After an error the default takes over, so that the error stays alone.
+#if VNDF_CAT(VNDF_NDF_IS_, VNDF_NDF) >= 1
+#else
+#error "clvndf: unknown VNDF_NDF; ggx and beckmann are allowed"
+#undef VNDF_NDF
+#define VNDF_NDF ggx
+#endif
+#if VNDF_CAT(VNDF_FRESNEL_IS_, VNDF_FRESNEL) >= 1
+#else
+#error "clvndf: unknown VNDF_FRESNEL; none, conductor, schlick and f82 are allowed"
+#undef VNDF_FRESNEL
+#define VNDF_FRESNEL schlick
+#endif
+#if VNDF_CAT(VNDF_MASKING_IS_, VNDF_MASKING) >= 1
+#else
+#error "clvndf: unknown VNDF_MASKING; correlated and separable are allowed"
+#undef VNDF_MASKING
+#define VNDF_MASKING correlated
+#endif
+#if VNDF_CAT(VNDF_SAMPLING_IS_, VNDF_SAMPLING) >= 1
+#else
+#error "clvndf: unknown VNDF_SAMPLING; plain, bounded and conic are allowed"
+#undef VNDF_SAMPLING
+#define VNDF_SAMPLING plain
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_CONDUCTOR) >= 1
+#else
+#error "clvndf: unknown VNDF_CONDUCTOR; 0 and 1 are allowed"
+#undef VNDF_CONDUCTOR
+#define VNDF_CONDUCTOR 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_LAMBERT) >= 1
+#else
+#error "clvndf: unknown VNDF_LAMBERT; 0 and 1 are allowed"
+#undef VNDF_LAMBERT
+#define VNDF_LAMBERT 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_ANISOTROPIC) >= 1
+#else
+#error "clvndf: unknown VNDF_ANISOTROPIC; 0 and 1 are allowed"
+#undef VNDF_ANISOTROPIC
+#define VNDF_ANISOTROPIC 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_TINT) >= 1
+#else
+#error "clvndf: unknown VNDF_TINT; 0 and 1 are allowed"
+#undef VNDF_TINT
+#define VNDF_TINT 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_BACK_FACING) >= 1
+#else
+#error "clvndf: unknown VNDF_BACK_FACING; 0 and 1 are allowed"
+#undef VNDF_BACK_FACING
+#define VNDF_BACK_FACING 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_SHADING_NORMAL) >= 1
+#else
+#error "clvndf: unknown VNDF_SHADING_NORMAL; 0 and 1 are allowed"
+#undef VNDF_SHADING_NORMAL
+#define VNDF_SHADING_NORMAL 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_TERMINATOR) >= 1
+#else
+#error "clvndf: unknown VNDF_TERMINATOR; 0 and 1 are allowed"
+#undef VNDF_TERMINATOR
+#define VNDF_TERMINATOR 1
+#endif
+
+// VNDF_IS(FRESNEL, schlick): whether the choice is that one.
+#define VNDF_IS(choice, value) (VNDF_CAT(VNDF_##choice##_IS_, VNDF_##choice) == VNDF_##choice##_IS_##value)
+
+#if VNDF_IS(NDF, beckmann) && !VNDF_IS(SAMPLING, plain)
+#error "clvndf: VNDF_NDF beckmann has VNDF_SAMPLING plain alone"
+#undef VNDF_SAMPLING
+#define VNDF_SAMPLING plain
+#endif
+#if !VNDF_CONDUCTOR && !VNDF_LAMBERT
+#error "clvndf: VNDF_CONDUCTOR and VNDF_LAMBERT are both 0: nothing is left of a material"
+#undef VNDF_LAMBERT
+#define VNDF_LAMBERT 1
+#endif
+
+#endif

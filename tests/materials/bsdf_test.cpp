@@ -1,0 +1,503 @@
+// What is claimed of every material: its value, its density, its samples.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "conformance/judge/statistics.h"
+#include "reference/materials.h"
+#include "registry.h"
+#include "splitmix64.h"
+#include "support/bsdf_program.h"
+#include "support/catch.h"
+
+namespace {
+
+using namespace vndf;
+using reference::MaterialModel;
+using Vector = reference::Vec3<double>;
+using Parameters = reference::MaterialParameters<double>;
+using View = reference::MaterialView<double>;
+
+constexpr double pi = 3.14159265358979323846, eps = 0x1p-24;
+
+// --- Choices ---
+
+struct Choice {
+    std::string switches;
+    MaterialModel model;
+};
+
+Choice choice_of(const std::string& ndf, const std::string& sampling, const std::string& fresnel,
+                 const std::string& masking) {
+    using M = MaterialModel;
+    const std::map<std::string, M::Sampling> samplings{
+        {"plain", M::Sampling::plain}, {"bounded", M::Sampling::bounded}, {"conic", M::Sampling::conic}};
+    const std::map<std::string, M::Fresnel> fresnels{{"none", M::Fresnel::none},
+                                                     {"conductor", M::Fresnel::conductor},
+                                                     {"schlick", M::Fresnel::schlick},
+                                                     {"f82", M::Fresnel::f82}};
+    Choice choice;
+    choice.switches =
+        fmt::format("NDF={} SAMPLING={} FRESNEL={} MASKING={}", ndf, sampling, fresnel, masking);
+    choice.model.ndf = ndf == "beckmann" ? M::Ndf::beckmann : M::Ndf::ggx;
+    choice.model.sampling = samplings.at(sampling);
+    choice.model.fresnel = fresnels.at(fresnel);
+    choice.model.masking = masking == "separable" ? M::Masking::separable : M::Masking::correlated;
+    return choice;
+}
+
+// Each value of each choice at least once.
+std::vector<Choice> some_choices() {
+    return {choice_of("ggx", "bounded", "schlick", "correlated"),
+            choice_of("ggx", "plain", "conductor", "correlated"),
+            choice_of("ggx", "conic", "f82", "separable"),
+            choice_of("beckmann", "plain", "conductor", "correlated"),
+            choice_of("beckmann", "plain", "none", "separable")};
+}
+
+std::vector<Choice> all_choices() {
+    std::vector<Choice> all;
+    for (const auto& [ndf, sampling] :
+         {std::pair{"ggx", "plain"}, {"ggx", "bounded"}, {"ggx", "conic"}, {"beckmann", "plain"}})
+        for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
+            for (const char* masking : {"correlated", "separable"})
+                all.push_back(choice_of(ndf, sampling, fresnel, masking));
+    return all;
+}
+
+// --- Tables ---
+
+struct Row {
+    Vector wo{0, 0, 1}, wi{0, 0, 1};
+    Parameters material{.3, .3, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, 1, {0, 0, 1}};
+    double u1 = .5, u2 = .5, u_lobe = .5;
+};
+
+float rounded(double x) {
+    return static_cast<float>(x);
+}
+Vector rounded(const Vector& v) {
+    return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+void append(std::vector<double>& to, const Vector& v) {
+    to.insert(to.end(), {v.x, v.y, v.z});
+}
+
+Columns columns(const std::vector<Row>& rows, bool sampled) {
+    Columns all(6 + bsdf_parameters.size());
+    for (const Row& row : rows) {
+        std::vector<double> values;
+        append(values, row.wo);
+        if (sampled)
+            values.insert(values.end(), {row.u1, row.u2, row.u_lobe});
+        else
+            append(values, row.wi);
+        const Parameters& m = row.material;
+        values.insert(values.end(), {m.alpha_x, m.alpha_y});
+        for (const auto& c : {m.first, m.second, m.tint, m.albedo})
+            values.insert(values.end(), c.begin(), c.end());
+        values.push_back(m.metal);
+        append(values, m.ng);
+        for (std::size_t i = 0; i < all.size(); ++i) all[i].push_back(rounded(values[i]));
+    }
+    return all;
+}
+
+// The row in the numbers that the device gets.
+Row rounded(Row row) {
+    Parameters& m = row.material;
+    row.wo = rounded(row.wo), row.wi = rounded(row.wi), m.ng = rounded(m.ng);
+    for (double* x : {&m.alpha_x, &m.alpha_y, &m.metal, &row.u1, &row.u2, &row.u_lobe}) *x = rounded(*x);
+    for (auto* colour : {&m.first, &m.second, &m.tint, &m.albedo})
+        for (double& x : *colour) x = rounded(x);
+    return row;
+}
+
+Vector direction(double cosine, double phi) {
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
+}
+
+class Draw : public SplitMix64 {
+  public:
+    using SplitMix64::SplitMix64;
+    double any(double low, double high) { return low + (high - low) * uniform(); }
+    bool chance(double p) { return uniform() < p; }
+    double one_of(const std::vector<double>& values) {
+        return values[static_cast<std::size_t>(uniform() * static_cast<double>(values.size()))];
+    }
+    Vector anywhere(double least = -1) { return direction(any(least, 1), any(0, 2 * pi)); }
+};
+
+// Materials and directions as scenes have them, wi often near the mirror image of wo.
+std::vector<Row> ordinary_rows(std::size_t count, std::uint64_t seed, bool two_normals = true) {
+    Draw draw(seed);
+    std::vector<Row> rows;
+    while (rows.size() < count) {
+        Row row;
+        Parameters& m = row.material;
+        m.alpha_x = std::exp(draw.any(std::log(1e-3), std::log(2.)));
+        m.alpha_y = draw.chance(.4) ? m.alpha_x : std::exp(draw.any(std::log(1e-3), std::log(2.)));
+        for (double& x : m.first) x = draw.any(.02, 1.6);
+        for (double& x : m.second) x = draw.any(0, draw.chance(.5) ? 1 : 8);
+        for (double& x : m.tint) x = draw.uniform();
+        for (double& x : m.albedo) x = draw.uniform();
+        m.metal = draw.chance(.3) ? 1 : draw.chance(.2) ? 0 : draw.uniform();
+        m.ng = two_normals && draw.chance(.5) ? draw.anywhere(.4) : Vector{0, 0, 1};
+        row.wo = draw.anywhere(two_normals ? -1 : .02);
+        // A facet of about this roughness.
+        const double tan = std::min(m.alpha_x, m.alpha_y) * std::exp(draw.any(-3, 2)),
+                     phi = draw.any(0, 2 * pi);
+        const double side = row.wo.z < 0 ? -1 : 1;
+        const Vector h = reference::normalised<double>({tan * std::cos(phi), tan * std::sin(phi), side});
+        row.wi = draw.chance(.3) ? draw.anywhere(two_normals ? -1 : .02) : reference::reflect(row.wo, h);
+        rows.push_back(rounded(row));
+    }
+    return rows;
+}
+
+// The ends of every range, and beyond.
+std::vector<Row> hard_rows(std::size_t count, std::uint64_t seed) {
+    Draw draw(seed);
+    const std::vector<double> alphas{0, 1e-8, 1e-6, 1e-4, 1e-2, .5, 1, 10, 1e3, 1e5},
+        cosines{1, 1 - 1e-7, .9, .5, .1, 1e-3, 1e-5, 1e-7, 0, -1e-7, -1e-3, -.5, -1 + 1e-7, -1},
+        edges{0, 0x1p-33, 0x1p-24, .25, .5, .75, 1 - 0x1p-24, 1}, reflectances{0, 1e-4, .04, .5, 1, 1.5, 1e3},
+        others{0, 1e-30, 1e-4, .5, 1, 8, 1e4}, shares{0, 0x1p-40, .5, 1 - 0x1p-24, 1};
+    std::vector<Row> rows;
+    while (rows.size() < count) {
+        Row row;
+        Parameters& m = row.material;
+        m.alpha_x = draw.one_of(alphas);
+        m.alpha_y = draw.chance(.5) ? m.alpha_x : draw.one_of(alphas);
+        for (double& x : m.first) x = draw.one_of(reflectances);
+        for (double& x : m.second) x = draw.one_of(others);
+        for (double& x : m.tint) x = draw.one_of({0, .5, 1});
+        for (double& x : m.albedo) x = draw.one_of({0, .5, 1});
+        m.metal = draw.one_of(shares);
+        m.ng = draw.chance(.5) ? Vector{0, 0, 1} : direction(draw.one_of(cosines), draw.any(0, 2 * pi));
+        row.wo = direction(draw.one_of(cosines), draw.one_of({0, .7, 3}));
+        row.wi = draw.chance(.3)   ? Vector{-row.wo.x, -row.wo.y, row.wo.z}
+                 : draw.chance(.1) ? Vector{-row.wo.x, -row.wo.y, -row.wo.z}
+                                   : direction(draw.one_of(cosines), draw.one_of({0, .7, 3}));
+        row.u1 = draw.one_of(edges), row.u2 = draw.one_of(edges), row.u_lobe = draw.one_of(edges);
+        rows.push_back(rounded(row));
+    }
+    return rows;
+}
+
+// --- Checks: the worst case of each, in the unit of its limit ---
+
+struct Found {
+    std::string check;
+    double figure, limit;
+    std::string where;
+    bool passed() const { return figure <= limit; }
+};
+using Findings = std::vector<Found>;
+
+std::string text(const Row& row) {
+    const Parameters& m = row.material;
+    const auto rgb = [](const auto& c) { return fmt::format("({:a} {:a} {:a})", c[0], c[1], c[2]); };
+    return fmt::format(
+        "wo ({:a} {:a} {:a}) wi ({:a} {:a} {:a}) alpha ({:a} {:a}) first {} second {} tint {} albedo {} "
+        "metal {:a} ng ({:a} {:a} {:a}) u ({:a} {:a}) u_lobe {:a}",
+        row.wo.x, row.wo.y, row.wo.z, row.wi.x, row.wi.y, row.wi.z, m.alpha_x, m.alpha_y, rgb(m.first),
+        rgb(m.second), rgb(m.tint), rgb(m.albedo), m.metal, m.ng.x, m.ng.y, m.ng.z, row.u1, row.u2,
+        row.u_lobe);
+}
+
+class Worst {
+  public:
+    Worst(std::string check, double limit) : found_{std::move(check), 0, limit, {}} {}
+    void add(double figure, const Row& row) {
+        if (std::isnan(figure)) figure = std::numeric_limits<double>::infinity();
+        if (figure > found_.figure) found_.figure = figure, found_.where = text(row);
+    }
+    operator Found() const { return found_; }
+
+  private:
+    Found found_;
+};
+
+double registered(const std::string& function) {
+    for (const BsdfFunction& f : bsdf_functions())
+        if (f.name == function) return f.float_bound;
+    throw std::logic_error("no bound of " + function);
+}
+
+// Value and density against the reference: errors over what the rounding of the reflectance's cosine, of a height above the
+// geometric horizon and of the exponent can do.
+Findings check_values(const Choice& choice, const BsdfProgram& program, std::size_t count) {
+    Worst value("value", registered("vndf_bsdf_eval")), density("density", registered("vndf_bsdf_pdf"));
+    const std::vector<Row> rows = ordinary_rows(count, 3);
+    const Columns out = program.eval_pdf(columns(rows, false));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        const View view(choice.model, row.material, row.wo, reference::Precision::f32);
+        const auto exact = view(row.wi);
+        if (!exact.settled) continue;
+        const double unit = eps * (1 + 2 * exact.exponent);
+        for (int c = 0; c < 3; ++c) {
+            if (exact.f[c] < 0x1p-100) continue;
+            value.add(std::abs(out[c][i] - exact.f[c]) / (unit * (exact.f[c] + exact.slope[c])), row);
+        }
+        if (exact.pdf > 0x1p-100) density.add(std::abs(out[3][i] - exact.pdf) / (unit * exact.pdf), row);
+        if (exact.pdf == 0) density.add(out[3][i] > 0 ? std::numeric_limits<double>::infinity() : 0, row);
+        if (exact.f[0] + exact.f[1] + exact.f[2] == 0)
+            value.add(out[0][i] + out[1][i] + out[2][i] > 0 ? std::numeric_limits<double>::infinity() : 0,
+                      row);
+    }
+    return {value, density};
+}
+
+// The weight of a sample is value over density where it points; its density is the separate one where rounding the
+// direction cannot move that.
+Findings check_weights(const BsdfProgram& program, std::size_t count) {
+    Worst weight("weight is value over density", registered("vndf_bsdf_sample")),
+        density("densities agree", 1e-3);
+    Draw draw(5);
+    std::vector<Row> rows = ordinary_rows(count / 2, 4), hard = hard_rows(count / 2, 4);
+    rows.insert(rows.end(), hard.begin(), hard.end());
+    for (std::size_t i = 0; i < count / 2; ++i)
+        rows[i].u1 = draw.uniform(), rows[i].u2 = draw.uniform(), rows[i].u_lobe = draw.uniform();
+    for (Row& row : rows) row = rounded(row);
+    const Columns samples = program.sample(columns(rows, true));
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].wi = {samples[0][i], samples[1][i], samples[2][i]};
+    const Columns values = program.eval_pdf(columns(rows, false));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double pdf = values[3][i];
+        if (!(pdf > 0)) continue;
+        for (int c = 0; c < 3; ++c) {
+            const double w = samples[3 + c][i], ratio = values[c][i] / pdf;
+            const double lost = 0x1p-149 / pdf;  // of a value that is no normal number
+            weight.add((std::abs(w - ratio) - lost) / (eps * std::max(1., w)), rows[i]);
+        }
+        const Parameters& m = rows[i].material;
+        if (i < count / 2 && std::min(m.alpha_x, m.alpha_y) > .05)
+            density.add(std::abs(samples[6][i] / pdf - 1), rows[i]);
+    }
+    return {weight, density};
+}
+
+// Finite, not negative, of unit length, and no more than all of the light.
+Findings check_hard(const BsdfProgram& program, std::size_t count) {
+    Worst finite("finite and not negative", 0), unit("unit length", length_bound("WI")),
+        energy("weight at most 1", 4);
+    const std::vector<Row> rows = hard_rows(count, 6);
+    const Columns values = program.eval_pdf(columns(rows, false)),
+                  samples = program.sample(columns(rows, true));
+    const auto bad = [](float x) { return !std::isfinite(x) || x < 0; };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (const auto& column : values) finite.add(bad(column[i]), rows[i]);
+        for (std::size_t c = 3; c < 7; ++c) finite.add(bad(samples[c][i]), rows[i]);
+        const double x = samples[0][i], y = samples[1][i], z = samples[2][i];
+        unit.add(std::abs(std::sqrt(x * x + y * y + z * z) - 1) / eps, rows[i]);
+        for (std::size_t c = 3; c < 6; ++c) energy.add((samples[c][i] - 1) / eps, rows[i]);
+    }
+    return {finite, unit, energy};
+}
+
+// The BSDF is the same for both directions exchanged, where there is one normal: f / cos(theta_i).
+Findings check_reciprocity(const BsdfProgram& program, std::size_t count) {
+    Worst worst("reciprocity", 2 * registered("vndf_bsdf_eval"));
+    const std::vector<Row> rows = ordinary_rows(count, 7, false);
+    std::vector<Row> turned = rows;
+    for (Row& row : turned) std::swap(row.wo, row.wi);
+    const Columns there = program.eval_pdf(columns(rows, false)),
+                  back = program.eval_pdf(columns(turned, false));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        if (row.wi.z < .02) continue;
+        const Vector h =
+            reference::normalised<double>({row.wo.x + row.wi.x, row.wo.y + row.wi.y, row.wo.z + row.wi.z});
+        const double q = reference::Beckmann::exponent(h, row.material.alpha_x, row.material.alpha_y);
+        for (int c = 0; c < 3; ++c) {
+            const double a = there[c][i] * row.wo.z, b = back[c][i] * row.wi.z;
+            if (std::max(a, b) > 0x1p-100)
+                worst.add(std::abs(a - b) / (eps * (1 + 2 * q) * std::max(a, b)), row);
+        }
+    }
+    return {worst};
+}
+
+// --- Integrals over the sphere: theta and phi in bins of many midpoints ---
+
+struct Grid {
+    static constexpr int theta = 24, phi = 48, fine = 12;
+    std::vector<Vector> node;
+    std::vector<double> weight;
+    std::vector<int> bin;
+    Grid() {
+        const double step_t = pi / (theta * fine), step_p = 2 * pi / (phi * fine);
+        for (int t = 0; t < theta * fine; ++t)
+            for (int p = 0; p < phi * fine; ++p) {
+                const double angle = (t + .5) * step_t;
+                node.push_back(direction(std::cos(angle), (p + .5) * step_p));
+                weight.push_back((std::cos(t * step_t) - std::cos((t + 1) * step_t)) * step_p);
+                bin.push_back(t / fine * phi + p / fine);
+            }
+    }
+    static int bin_of(const Vector& w) {
+        const double turn = std::atan2(w.y, w.x) / (2 * pi);
+        const int t = static_cast<int>(std::acos(std::clamp(w.z, -1., 1.)) / pi * theta);
+        const int p = static_cast<int>((turn < 0 ? turn + 1 : turn) * phi);
+        return std::min(t, theta - 1) * phi + std::min(p, phi - 1);
+    }
+};
+const Grid& grid() {
+    static const Grid all;
+    return all;
+}
+
+struct Lobe {
+    double alpha_x, alpha_y, cosine, phi, metal;
+};
+const std::vector<Lobe>& lobes() {
+    static const std::vector<Lobe> all{{.3, .3, .6, .7, 1},   {.6, .2, .9, 2, 1},  {.25, .5, .15, -1, 1},
+                                       {1, 1, .5, 0, 1},      {.5, .5, -.7, 1, 1}, {.3, .3, .6, .7, .4},
+                                       {.6, .25, -.3, 2, .7}, {.4, .4, .5, 0, 0}};
+    return all;
+}
+
+// Samples against the reference's density; all light against what is reflected of it, by quadrature and by samples.
+Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std::vector<Lobe>& lobes,
+                     std::size_t samples) {
+    const double rate = conformance::sidak(1e-6, lobes.size());
+    Found chi2{"chi2 of the directions", 0, 1, {}};
+    Worst furnace("furnace", 1.002), mean("mean weight", 6.5), closed("closed form at alpha = 1", 2e-3);
+    for (const Lobe& lobe : lobes) {
+        Row row;
+        row.wo = direction(lobe.cosine, lobe.phi);
+        row.material.alpha_x = lobe.alpha_x, row.material.alpha_y = lobe.alpha_y,
+        row.material.metal = lobe.metal;
+        if (choice.model.fresnel == MaterialModel::Fresnel::conductor)
+            row.material.first = {1e-3, 1e-3, 1e-3},
+            row.material.second = {1e3, 1e3, 1e3};  // all but a mirror
+        row = rounded(row);
+
+        // What is expected of each bin, and of the whole.
+        const View view(choice.model, row.material, row.wo, reference::Precision::f32);
+        std::vector<double> expected(Grid::theta * Grid::phi);
+        std::vector<Row> nodes(grid().node.size(), row);
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            expected[grid().bin[i]] +=
+                view(grid().node[i]).pdf * grid().weight[i] * static_cast<double>(samples);
+            nodes[i].wi = grid().node[i];
+        }
+        const double total = std::accumulate(expected.begin(), expected.end(), 0.);
+        for (double& x : expected) x *= static_cast<double>(samples) / total;
+        const Columns values = program.eval_pdf(columns(nodes, false));
+        double albedo = 0;
+        for (std::size_t i = 0; i < nodes.size(); ++i) albedo += values[0][i] * grid().weight[i];
+
+        std::vector<Row> rows(samples, row);
+        Draw draw(9);
+        for (Row& r : rows) r.u1 = draw.uniform(), r.u2 = draw.uniform(), r.u_lobe = draw.uniform();
+        const Columns drawn = program.sample(columns(rows, true));
+        std::vector<std::uint32_t> observed(expected.size());
+        double sum = 0, squares = 0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            ++observed[Grid::bin_of({drawn[0][i], drawn[1][i], drawn[2][i]})];
+            sum += drawn[3][i], squares += drawn[3][i] * drawn[3][i];
+        }
+        const double n = static_cast<double>(samples), average = sum / n;
+        const double deviation = std::sqrt(std::max(squares / n - average * average, 1e-6) / n);
+        const double p = conformance::chi_square(observed, expected).p;
+        const double figure = p > 0 ? std::log(p) / std::log(rate) : std::numeric_limits<double>::infinity();
+        if (!(figure <= chi2.figure)) chi2.figure = figure, chi2.where = text(row);
+        furnace.add(albedo, row);
+        mean.add(std::max(std::abs(average - albedo) - 1e-3, 0.) / deviation, row);
+        const double mu = std::abs(lobe.cosine);
+        if (lobe.alpha_x == 1 && lobe.alpha_y == 1 && lobe.metal == 1 &&
+            choice.model.ndf == MaterialModel::Ndf::ggx &&
+            choice.model.masking == MaterialModel::Masking::correlated &&
+            choice.model.fresnel != MaterialModel::Fresnel::conductor)
+            closed.add(std::abs(albedo - (1 - mu * std::log(1 + 1 / mu))), row);
+    }
+    return {chi2, furnace, mean, closed};
+}
+
+Findings operator+(Findings a, const Findings& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+Findings check_all(const Choice& choice, const BsdfProgram& program, std::size_t count,
+                   const std::vector<Lobe>& lobes, std::size_t samples) {
+    return check_values(choice, program, count) + check_weights(program, count) + check_hard(program, count) +
+           check_reciprocity(program, count) + check_lobes(choice, program, lobes, samples);
+}
+
+void expect_passed(const Choice& choice, const Findings& findings) {
+    for (const Found& found : findings) {
+        INFO(choice.switches << ": " << found.check << ": " << found.figure << " of " << found.limit << " at "
+                             << found.where);
+        CHECK(found.passed());
+    }
+}
+
+// --- Seeded mistakes ---
+
+struct Mistake {
+    const char *what, *file, *old_text, *new_text, *switches;
+    std::vector<std::string> noticed_by;
+};
+const std::vector<Mistake>& mistakes() {
+    static const std::vector<Mistake> all{
+#include "mutants.h"
+    };
+    return all;
+}
+
+Choice choice_with(const std::string& switches) {
+    for (const Choice& choice : some_choices())
+        if (choice.switches.find(switches) != std::string::npos) return choice;
+    throw std::logic_error("no choice with " + switches);
+}
+
+}  // namespace
+
+TEST_CASE("materials are what they are said to be") {
+    for (const Choice& choice : some_choices())
+        expect_passed(choice, check_all(choice, BsdfProgram(choice.switches), 1 << 14, lobes(), 1 << 15));
+}
+
+TEST_CASE("every seeded mistake in a material is noticed") {
+    std::vector<runtime::Substitution> all;
+    for (const Mistake& m : mistakes())
+        all.push_back({m.file, m.old_text, m.new_text, static_cast<int>(all.size()) + 1});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Mistake& mistake = mistakes()[i];
+        const Choice choice = choice_with(mistake.switches);
+        const BsdfProgram program(choice.switches, {all[i]}, all[i].id);
+        const Findings findings =
+            check_all(choice, program, 1 << 12, {{.3, .3, .6, .7, 1}, {.6, .25, -.3, 2, .7}}, 1 << 14);
+        std::string failed;
+        for (const Found& found : findings)
+            if (!found.passed()) failed += " [" + found.check + "]";
+        INFO(mistake.what << ": noticed by:" << failed);
+        for (const std::string& check : mistake.noticed_by)
+            CHECK(failed.find("[" + check + "]") != std::string::npos);
+    }
+}
+
+// By hand: every choice, more of everything.
+TEST_CASE("materials of every choice are what they are said to be", "[.bsdf-full]") {
+    for (const Choice& choice : all_choices()) {
+        const Findings findings = check_all(choice, BsdfProgram(choice.switches), 1 << 20, lobes(), 1 << 18);
+        fmt::print("{}:", choice.switches);
+        for (const Found& found : findings)
+            fmt::print(" {} {:.3g} of {:.3g};", found.check, found.figure, found.limit);
+        fmt::print("\n");
+        expect_passed(choice, findings);
+    }
+}

@@ -1,0 +1,77 @@
+// A material of kernels/vndf/bsdf.h on the default device, with switches: tables in, tables out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/program.h"
+
+namespace vndf {
+
+using Columns = std::vector<std::vector<float>>;
+
+// The inputs' names, in the order of kernels/batch/bsdf.cl.
+inline const std::vector<std::string> bsdf_parameters{
+    "alpha_x", "alpha_y", "first_r",  "first_g",  "first_b",  "second_r", "second_g", "second_b", "tint_r",
+    "tint_g",  "tint_b",  "albedo_r", "albedo_g", "albedo_b", "metal",    "ng_x",     "ng_y",     "ng_z"};
+
+class BsdfProgram {
+  public:
+    // switches: "NDF=beckmann LAMBERT=0".
+    explicit BsdfProgram(const std::string& switches, const std::vector<runtime::Substitution>& mutants = {},
+                         int mutant = 0)
+        : program_(runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32,
+                   options(switches, mutants, mutant)) {}
+
+    // wo, wi, the material -> f (3), pdf
+    Columns eval_pdf(const Columns& in) const { return run("vndf_batch_bsdf_eval_pdf", in, 4); }
+    // wo, u1, u2, u_lobe, the material -> wi (3), weight (3), pdf, lobe
+    Columns sample(const Columns& in) const { return run("vndf_batch_bsdf_sample", in, 8); }
+
+  private:
+    static runtime::ProgramOptions options(const std::string& switches,
+                                           const std::vector<runtime::Substitution>& mutants, int mutant) {
+        runtime::ProgramOptions options;
+        options.root = "kernels/batch/bsdf.cl";
+        std::string word;
+        for (const char c : switches + ' ') {
+            if (c != ' ') {
+                word += c;
+            } else if (!word.empty()) {
+                options.build_options += " -DVNDF_" + word;
+                word.clear();
+            }
+        }
+        options.substitutions = mutants;
+        options.mutant = mutant;
+        return options;
+    }
+
+    Columns run(const char* name, const Columns& in, std::size_t outputs) const {
+        const std::size_t items = in.front().size(), padded = runtime::whole_groups(items);
+        Columns out(outputs, std::vector<float>(items));
+        program_.guarded(std::string("run ") + name, [&] {
+            cl::Kernel kernel = program_.kernel(name);
+            std::vector<cl::Buffer> buffers;
+            for (std::size_t i = 0; i < in.size() + outputs; ++i) {
+                cl::Buffer& buffer = buffers.emplace_back(program_.buffer(padded * sizeof(float)));
+                if (i < in.size()) {
+                    std::vector<float> column = in[i];
+                    column.resize(padded, column.front());
+                    program_.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, padded * sizeof(float),
+                                                        column.data());
+                }
+                kernel.setArg(static_cast<cl_uint>(i), buffer);
+            }
+            program_.launch(kernel, items);
+            for (std::size_t i = 0; i < outputs; ++i)
+                program_.queue().enqueueReadBuffer(buffers[in.size() + i], CL_TRUE, 0, items * sizeof(float),
+                                                   out[i].data());
+        });
+        return out;
+    }
+
+    runtime::Program program_;
+};
+
+}  // namespace vndf
