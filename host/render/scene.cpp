@@ -26,29 +26,27 @@ Vec narrow(const Vec3& a) {
     return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
 }
 
+// Reflectances along the normal for 630, 550 and 465 nm, rounded.
+constexpr Vec silver{0.97f, 0.96f, 0.91f}, gold{1.0f, 0.78f, 0.34f}, copper{0.96f, 0.64f, 0.54f},
+    iron{0.56f, 0.57f, 0.58f}, aluminium{0.91f, 0.92f, 0.92f};
+
 std::array<Material, 5> materials_of(std::string_view kind) {
-    const Vec silver{0.97f, 0.96f, 0.91f};
-    const auto metal = [](Vec colour, float x, float y) { return Material{x, y, colour, true}; };
     if (kind == "anisotropy")
-        return {metal(silver, 0.02f, 0.3f), metal(silver, 0.3f, 0.02f), metal(silver, 0.1f, 0.4f),
-                metal(silver, 0.05f, 0.8f), metal(silver, 0.8f, 0.05f)};
-    if (kind == "metals")  // reflectances along the normal for 630, 550 and 465 nm, rounded
-        return {metal(silver, 0.05f, 0.05f), metal({1.0f, 0.78f, 0.34f}, 0.15f, 0.15f),
-                metal({0.96f, 0.64f, 0.54f}, 0.25f, 0.25f), metal({0.56f, 0.57f, 0.58f}, 0.35f, 0.35f),
-                metal({0.91f, 0.92f, 0.92f}, 0.5f, 0.5f)};
-    if (kind == "diffuse") {
-        const auto matt = [](Vec colour) { return Material{1, 1, colour, false}; };
-        return {matt({0.7f, 0.2f, 0.15f}), matt({0.7f, 0.5f, 0.2f}), matt({0.7f, 0.7f, 0.7f}),
-                matt({0.3f, 0.55f, 0.25f}), matt({0.2f, 0.3f, 0.6f})};
-    }
-    const Vec gold{1.0f, 0.78f, 0.34f};
-    return {metal(gold, 0.01f, 0.01f), metal(gold, 0.1f, 0.1f), metal(gold, 0.3f, 0.3f),
-            metal(gold, 0.6f, 0.6f), metal(gold, 1.0f, 1.0f)};
+        return {conductor(silver, 0.02f, 0.3f), conductor(silver, 0.3f, 0.02f), conductor(silver, 0.1f, 0.4f),
+                conductor(silver, 0.05f, 0.8f), conductor(silver, 0.8f, 0.05f)};
+    if (kind == "metals")
+        return {conductor(silver, 0.05f, 0.05f), conductor(gold, 0.15f, 0.15f), conductor(copper, 0.25f, 0.25f),
+                conductor(iron, 0.35f, 0.35f), conductor(aluminium, 0.5f, 0.5f)};
+    if (kind == "diffuse")
+        return {lambert({0.7f, 0.2f, 0.15f}), lambert({0.7f, 0.5f, 0.2f}), lambert({0.7f, 0.7f, 0.7f}),
+                lambert({0.3f, 0.55f, 0.25f}), lambert({0.2f, 0.3f, 0.6f})};
+    return {conductor(gold, 0.01f, 0.01f), conductor(gold, 0.1f, 0.1f), conductor(gold, 0.3f, 0.3f),
+            conductor(gold, 0.6f, 0.6f), conductor(gold, 1.0f, 1.0f)};
 }
 
 void add_floor(Scene& scene) {
-    const std::uint32_t light = scene.add_material({1, 1, {0.42f, 0.40f, 0.38f}, false}),
-                        dark = scene.add_material({1, 1, {0.20f, 0.20f, 0.21f}, false});
+    const std::uint32_t light = scene.add_material(lambert({0.42f, 0.40f, 0.38f})),
+                        dark = scene.add_material(lambert({0.20f, 0.20f, 0.21f}));
     constexpr int half = 24;
     constexpr float side = 1.25f;
     for (int row = -half; row < half; ++row)
@@ -58,6 +56,21 @@ void add_floor(Scene& scene) {
 }
 
 }  // namespace
+
+Material conductor(Vec f0, float alpha_x, float alpha_y) {
+    Material m;
+    m.alpha_x = alpha_x;
+    m.alpha_y = alpha_y;
+    m.first = f0;
+    return m;
+}
+
+Material lambert(Vec albedo) {
+    Material m;
+    m.metal = 0;
+    m.albedo = albedo;
+    return m;
+}
 
 std::uint32_t Scene::add_material(const Material& material) {
     materials.push_back(material);

@@ -12,20 +12,41 @@ constexpr std::size_t whole_chunks(std::size_t items) {
     return (items + VNDF_CHUNK - 1) / VNDF_CHUNK * VNDF_CHUNK;
 }
 
-std::vector<float> material_table(const Scene& scene) {
-    std::vector<float> table;
-    for (const Material& m : scene.materials) {
-        const float row[VNDF_MATERIAL_SIZE] = {m.alpha_x,   m.alpha_y,   m.colour[0],
-                                               m.colour[1], m.colour[2], m.metal ? 1.0f : 0.0f};
-        table.insert(table.end(), std::begin(row), std::end(row));
-    }
+// Plane after plane: row i's plane k at k * rows + i.
+template <class T, class Rows, class Fill>
+std::vector<T> planes_of(std::size_t planes, const Rows& rows, Fill fill) {
+    std::vector<T> table;
+    for (std::size_t k = 0; k < planes; ++k)
+        for (const auto& row : rows) table.push_back(fill(row)[k]);
     return table;
 }
 
-}  // namespace
+std::vector<float> vertex_table(const Scene& scene) {
+    return planes_of<float>(VNDF_VERTEX_PLANES, scene.vertices, [](const Vertex& v) {
+        return std::array{v.place[0], v.place[1], v.place[2], v.normal[0], v.normal[1], v.normal[2]};
+    });
+}
 
-static_assert(sizeof(Vertex) == VNDF_VERTEX_SIZE * sizeof(float));
-static_assert(sizeof(Triangle) == VNDF_TRIANGLE_SIZE * sizeof(std::uint32_t));
+std::vector<std::uint32_t> triangle_table(const Scene& scene) {
+    return planes_of<std::uint32_t>(VNDF_TRIANGLE_PLANES, scene.triangles, [](const Triangle& t) {
+        return std::array{t.corners[0], t.corners[1], t.corners[2], t.material};
+    });
+}
+
+std::vector<float> material_table(const Scene& scene) {
+    return planes_of<float>(VNDF_MATERIAL_PLANES, scene.materials, [](const Material& m) {
+        std::vector<float> row{m.alpha_x, m.alpha_y, m.metal};
+        for (const Vec& rgb : {m.first, m.second, m.tint, m.albedo}) row.insert(row.end(), rgb.begin(), rgb.end());
+        return row;
+    });
+}
+
+vndf_render_sizes sizes_of(const Scene& scene) {
+    const auto size = [](const auto& rows) { return static_cast<std::uint32_t>(rows.size()); };
+    return {size(scene.vertices), size(scene.triangles), size(scene.materials), 1.0f};
+}
+
+}  // namespace
 
 Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const Settings& settings)
     : stages_(stages),
@@ -37,11 +58,12 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       film_stride_(pixels_ + 1),
       view_(view_of(scene.camera, settings.width, settings.height)),
       sky_(sky_of(scene.sky)),
+      sizes_(sizes_of(scene)),
       words_(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)),
       nodes_(stages.upload(tree.nodes)),
       leaves_(stages.upload(tree.leaves)),
-      vertices_(stages.upload(scene.vertices)),
-      triangles_(stages.upload(scene.triangles)),
+      vertices_(stages.upload(vertex_table(scene))),
+      triangles_(stages.upload(triangle_table(scene))),
       materials_(stages.upload(material_table(scene))) {
     const auto planes = [&](std::size_t count) { return stages_.buffer(count * stride_ * sizeof(float)); };
     for (int side = 0; side < 2; ++side) {
@@ -51,7 +73,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     hit_ = planes(VNDF_HIT_PLANES);
     triangle_ = planes(1);
     lights_ = planes(VNDF_LIGHT_PLANES);
-    shadow_ = planes(VNDF_SHADOW_PLANES);
+    surface_ = planes(VNDF_SURFACE_PLANES);
+    material_ = planes(1);
     alive_ = planes(1);
     rank_ = planes(1);
     offset_ = planes(1);
@@ -89,11 +112,15 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
                             chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
         const std::int32_t roulette = bounce >= roulette_from;
         const std::size_t whole = whole_chunks(count);
-        stages_.launch("lights", count, {&sky_, word_buffer_, light_quad, slot, first, stride_, lights_});
-        stages_.launch("shade", whole,
-                       {vertices_, triangles_, materials_, word_buffer_, bsdf_quad, hit_, triangle_, lights_, slot,
-                        first, count, stride_, roulette, path, shadow_, alive_});
-        stages_.launch("shadow", count, {nodes_, leaves_, shadow_, slot, count, stride_, light_});
+        stages_.launch("surface", whole,
+                       {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
+        stages_.launch("lights", whole, {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
+        stages_.launch("connect", whole, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
+        stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
+        stages_.launch("scatter", whole,
+                       {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
+        stages_.launch("survive", whole, {material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette,
+                                          path, alive_});
         stages_.launch("rank", chunks, {alive_, chunks, rank_, offset_});
         stages_.launch("offsets", 1, {chunks, offset_});
         side = 1 - side;

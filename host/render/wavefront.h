@@ -50,11 +50,12 @@ class Wavefront {
     std::uint32_t pixels_, queue_, stride_, film_stride_;
     vndf_render_view view_;
     vndf_render_sky sky_;
+    vndf_render_sizes sizes_;
     Words words_;
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
     Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, word_buffer_;
-    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, shadow_, alive_, rank_, offset_, light_, film_;
+    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, surface_, material_, alive_, rank_, offset_, light_, film_;
 };
 
 }  // namespace vndf::render

@@ -6,6 +6,7 @@
 #define VNDF_RENDER_LIGHTS_H
 
 #include "random.h"
+#include "surface.h"
 
 // 1 - cos of the angle to the middle of the sun, of directions near it without cancellation.
 VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, float z) {
@@ -31,7 +32,8 @@ VNDF_FN float vndf_render_low4(float up) {
 }
 
 VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_RENDER_IN(uint) words,
-                                      const uint quad, VNDF_RENDER_IN(uint) slot, const uint first, const uint stride,
+                                      const uint quad, VNDF_RENDER_IN(uint) slot, const uint first,
+                                      VNDF_RENDER_IN(float) surface, const uint stride,
                                       VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
@@ -60,6 +62,12 @@ VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_REN
         vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, y >= 0.0f,
                              sky.sun_blue, in_sun);
     light[VNDF_LIGHT_PDF * stride + i] = vndf_render_light_pdf(sky, y, in_sun);
+    const struct vndf_render_vector framed = vndf_render_local(
+        vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
+        vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i), vndf_render_vector_of(x, y, z));
+    light[VNDF_LIGHT_X * stride + i] = framed.x;
+    light[VNDF_LIGHT_Y * stride + i] = framed.y;
+    light[VNDF_LIGHT_Z * stride + i] = framed.z;
 }
 
 // The weight of a sample with the density p beside one that has q in the same direction, by the power heuristic: from the

@@ -22,7 +22,8 @@
 #define VNDF_HIT_PLANES 2
 #define VNDF_MISS 0xffffffffu
 
-// A direction towards the lights, what comes from there, and its density.
+// A direction towards the lights, in the world and in the surface's frame, what comes from there, later what of it arrives, and
+// its density.
 #define VNDF_LIGHT_DX 0
 #define VNDF_LIGHT_DY 1
 #define VNDF_LIGHT_DZ 2
@@ -30,19 +31,17 @@
 #define VNDF_LIGHT_GREEN 4
 #define VNDF_LIGHT_BLUE 5
 #define VNDF_LIGHT_PDF 6
-#define VNDF_LIGHT_PLANES 7
+#define VNDF_LIGHT_X 7
+#define VNDF_LIGHT_Y 8
+#define VNDF_LIGHT_Z 9
+#define VNDF_LIGHT_PLANES 10
 
-// A ray towards a light, and what it adds to the path's light if nothing is in its way.
-#define VNDF_SHADOW_X 0
-#define VNDF_SHADOW_Y 1
-#define VNDF_SHADOW_Z 2
-#define VNDF_SHADOW_DX 3
-#define VNDF_SHADOW_DY 4
-#define VNDF_SHADOW_DZ 5
-#define VNDF_SHADOW_RED 6
-#define VNDF_SHADOW_GREEN 7
-#define VNDF_SHADOW_BLUE 8
-#define VNDF_SHADOW_PLANES 9
+// A surface: normal and tangent in the world; where the path comes from and the geometric normal in the frame that they make.
+#define VNDF_SURFACE_NORMAL 0
+#define VNDF_SURFACE_TANGENT 3
+#define VNDF_SURFACE_WO 6
+#define VNDF_SURFACE_GEOMETRIC 9
+#define VNDF_SURFACE_PLANES 12
 
 // The film, by pixel: sums over the samples, the luminance of those with an odd number, and how often a sample was no number.
 #define VNDF_FILM_RED 0
@@ -58,7 +57,7 @@
 #define VNDF_QUAD_LIGHT 1   // a: which light, b, c: the direction
 #define VNDF_QUAD_BSDF 2    // a, b: the direction, c: the lobe, d: survival
 #define VNDF_QUAD_BOUNCE 2  // of each bounce
-#define VNDF_QUAD_WORDS 8
+#define VNDF_QUAD_WORDS 9
 
 // A node of the tree: eight boxes and children, 64 floats. A child >= 0 is a node, one below is the leaf ~child.
 #define VNDF_NODE_LOW_X 0
@@ -75,18 +74,28 @@
 #define VNDF_LEAF_SIZE 80
 #define VNDF_TREE_DEPTH 32
 
-// Triangles and vertices for shading, and materials: arrays of structures, since they are gathered.
+// Tables for shading, structures of arrays as well: neighbours in memory LLVM would load as one vector of few, and then not
+// vectorise across work-items.
+#define VNDF_TRIANGLE_CORNER 0
 #define VNDF_TRIANGLE_MATERIAL 3
-#define VNDF_TRIANGLE_SIZE 4
+#define VNDF_TRIANGLE_PLANES 4
+#define VNDF_VERTEX_PLACE 0
 #define VNDF_VERTEX_NORMAL 3
-#define VNDF_VERTEX_SIZE 6
+#define VNDF_VERTEX_PLANES 6
 #define VNDF_MATERIAL_ALPHA_X 0
 #define VNDF_MATERIAL_ALPHA_Y 1
-#define VNDF_MATERIAL_RED 2
-#define VNDF_MATERIAL_GREEN 3
-#define VNDF_MATERIAL_BLUE 4
-#define VNDF_MATERIAL_METAL 5
-#define VNDF_MATERIAL_SIZE 8
+#define VNDF_MATERIAL_METAL 2
+#define VNDF_MATERIAL_FIRST 3   // f0 or eta
+#define VNDF_MATERIAL_SECOND 6  // f90, k or the tint at 82 degrees
+#define VNDF_MATERIAL_TINT 9
+#define VNDF_MATERIAL_ALBEDO 12
+#define VNDF_MATERIAL_PLANES 15
+
+// How many rows the tables have, and 1.0f for material.h.
+struct vndf_render_sizes {
+    unsigned int vertices, triangles, materials;
+    float one;
+};
 
 // Paths counted by one item of the compaction.
 #define VNDF_CHUNK 256

@@ -1,10 +1,10 @@
 // Random numbers of a path, four at a time, without state: of the pixel, and of what the launch shares.
 //
 // VNDF_RANDOM sobol: every path of a launch has the same sample number, so that a point of Sobol's sequence is the host's to
-// make: each of four dimensions has two words, the coordinate with its bits reversed and a key. Its bits are scrambled after
+// make: each of four dimensions has two words, the coordinate with its bits reversed and a key; the ninth is 0. The bits are scrambled after
 // Owen by a hash of the pixel and the key: Laine & Karras, Stratified Sampling for Stochastic Transparency, 2011, with
 // Vegdahl's constants (Owen Scrambling Based Hashing, 2021).
-// VNDF_RANDOM philox: Philox 4x32-10 of (pixel, sample, quad) with the seed for a key; the words are seed, sample and quad.
+// VNDF_RANDOM philox: Philox 4x32-10 of (pixel, sample, quad) with the seed for a key; the words are seed, sample, quad.
 #ifndef VNDF_RENDER_RANDOM_H
 #define VNDF_RENDER_RANDOM_H
 
@@ -60,7 +60,7 @@ VNDF_FN uint vndf_render_reversed(uint x) {
     return (x >> 16) | (x << 16);
 }
 
-VNDF_FN float vndf_render_scrambled(uint word, uint key, uint pixel) {
+VNDF_FN uint vndf_render_scrambled(uint word, uint key, uint pixel) {
     const uint seed = vndf_render_hash(pixel * 0x9e3779b9u + key);
     uint x = word;
     x ^= x * 0x3d20adeau;
@@ -68,15 +68,22 @@ VNDF_FN float vndf_render_scrambled(uint word, uint key, uint pixel) {
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return vndf_render_unit(vndf_render_reversed(x));
+    return vndf_render_reversed(x);
 }
 
 VNDF_FN struct vndf_render_quad vndf_render_random(VNDF_RENDER_FROM(uint) words, uint pixel) {
+    // The last word is 0. It makes each number depend on the one before, for the compiler alone, which would pack them, and PoCL
+    // then not vectorise across work-items.
+    const uint none = words[8];
+    const uint a = vndf_render_scrambled(words[0], words[1], pixel);
+    const uint b = vndf_render_scrambled(words[2] ^ (a & none), words[3], pixel);
+    const uint c = vndf_render_scrambled(words[4] ^ (b & none), words[5], pixel);
+    const uint d = vndf_render_scrambled(words[6] ^ (c & none), words[7], pixel);
     struct vndf_render_quad u;
-    u.a = vndf_render_scrambled(words[0], words[1], pixel);
-    u.b = vndf_render_scrambled(words[2], words[3], pixel);
-    u.c = vndf_render_scrambled(words[4], words[5], pixel);
-    u.d = vndf_render_scrambled(words[6], words[7], pixel);
+    u.a = vndf_render_unit(a);
+    u.b = vndf_render_unit(b);
+    u.c = vndf_render_unit(c);
+    u.d = vndf_render_unit(d);
     return u;
 }
 

@@ -19,17 +19,18 @@ VNDF_RENDER_KERNEL vndf_render_traverse(VNDF_RENDER_IN(float) nodes, VNDF_RENDER
 }
 
 VNDF_RENDER_KERNEL vndf_render_shadow(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_IN(float) leaves,
-                                      VNDF_RENDER_IN(float) shadow, VNDF_RENDER_IN(uint) slot,
-                                      const uint count, const uint stride, VNDF_RENDER_OUT(float) light) {
+                                      VNDF_RENDER_IN(float) path, VNDF_RENDER_IN(float) lights,
+                                      VNDF_RENDER_IN(uint) slot, const uint count, const uint stride,
+                                      VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
     if (i >= count) return;
-    const float red = shadow[VNDF_SHADOW_RED * stride + i], green = shadow[VNDF_SHADOW_GREEN * stride + i],
-                blue = shadow[VNDF_SHADOW_BLUE * stride + i];
+    const float red = lights[VNDF_LIGHT_RED * stride + i], green = lights[VNDF_LIGHT_GREEN * stride + i],
+                blue = lights[VNDF_LIGHT_BLUE * stride + i];
     if (red == 0.0f && green == 0.0f && blue == 0.0f) return;
-    const struct vndf_render_ray ray =
-        vndf_render_ray_of(shadow[VNDF_SHADOW_X * stride + i], shadow[VNDF_SHADOW_Y * stride + i],
-                           shadow[VNDF_SHADOW_Z * stride + i], shadow[VNDF_SHADOW_DX * stride + i],
-                           shadow[VNDF_SHADOW_DY * stride + i], shadow[VNDF_SHADOW_DZ * stride + i]);
+    const struct vndf_render_ray ray = vndf_render_ray_of(
+        path[VNDF_PATH_X * stride + i], path[VNDF_PATH_Y * stride + i], path[VNDF_PATH_Z * stride + i],
+        lights[VNDF_LIGHT_DX * stride + i], lights[VNDF_LIGHT_DY * stride + i],
+        lights[VNDF_LIGHT_DZ * stride + i]);
     if (vndf_render_trace(nodes, leaves, ray, 1).triangle != VNDF_MISS) return;
     light[slot[i]] += red;
     light[stride + slot[i]] += green;
