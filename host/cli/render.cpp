@@ -10,7 +10,10 @@
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/streams.h"
 #include "error.h"
+#include "render/effects.h"
+#include "render/explain.h"
 #include "render/image.h"
 
 namespace vndf::cli {
@@ -19,8 +22,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Render {
-    std::string output = "render.png", size = "960x400", sampler = "bounded", random = "sobol", ndf = "ggx",
-                math = "strict", device, orbs = "roughness";
+    std::string output = "render.png", size = "960x400", math = "strict", device, orbs = "roughness",
+                effects = "auto";
+    render::Choices choices;
+    CLI::Option* sampler = nullptr;
+    bool explain = false;
     std::uint64_t spp = 64;
     double seconds = 0, target_error = 0;  // 0: not asked for
     unsigned max_bounces = 6;
@@ -99,24 +105,33 @@ void trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, 
     }
 }
 
+// Beckmann has no bounded sampler, which is the default.
+render::Choices choices_of(const Render& r) {
+    render::Choices choices = r.choices;
+    if (r.sampler->count() == 0 && choices.ndf == "beckmann") choices.sampler = "plain";
+    return choices;
+}
+
 void run(const Render& r, Common& common) {
     const Clock::time_point start = Clock::now();
     render::Settings settings;
     set_size(r.size, settings);
     settings.max_bounces = r.max_bounces;
     settings.seed = common.seed;
-    settings.random = r.random == "philox" ? render::Random::philox : render::Random::sobol;
+    settings.random = r.choices.random == "philox" ? render::Random::philox : render::Random::sobol;
     render::require_image_name(r.output);
+    const render::Scene scene = render::orbs(r.orbs);
+    const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
+    const std::string switches = render::switches(scene, effects, choices_of(r));
     const runtime::Device device = [&] {
         Target target;
         target.device = r.device;
         return target.choose(common);
     }();
     OutputFile file(r.output);
-
-    const render::Scene scene = render::orbs(r.orbs);
     const render::Tree tree = render::build_tree(scene);
-    const auto stages = render::device_stages(device, math_named(r.math), "-DVNDF_RANDOM=" + r.random);
+    if (r.explain) put(render::explanation({device, math_named(r.math), scene, tree, effects, choices_of(r), settings}));
+    const auto stages = render::device_stages(device, math_named(r.math), switches);
     render::Wavefront wavefront(*stages, scene, tree, settings);
     trace(r, wavefront, std::uint64_t{settings.width} * settings.height, common);
 
@@ -128,7 +143,8 @@ void run(const Render& r, Common& common) {
                                 {"samples per pixel", fmt::format("{:.6g}", image.samples)},
                                 {"estimated error", fmt::format("{:.3g}", image.error)},
                                 {"seed", fmt::format("{}", common.seed)},
-                                {"random numbers", r.random},
+                                {"random numbers", r.choices.random},
+                                {"switches", switches},
                                 {"math", r.math},
                                 {"longest path", fmt::format("{} surfaces", r.max_bounces)},
                                 {"device", stages->describe()},
@@ -159,12 +175,24 @@ void add_render(CLI::App& app, Common& common) {
                "instead: until the estimated error, relative to the mean luminance, is at most this")
         ->excludes(spp);
     add_number(*command, "--max-bounces", r->max_bounces, 0u, 128u, "surfaces that a path may visit")->default_str("6");
-    command->add_option("--random", r->random, "random numbers: sobol, scrambled after Owen, or philox")
-        ->check(CLI::IsMember({"sobol", "philox"}))
+    const auto choice = [&](const char* name, std::string& value, const char* description,
+                            const std::vector<std::string>& values) {
+        return command->add_option(name, value, description)->check(CLI::IsMember(values))->capture_default_str();
+    };
+    r->sampler = choice("--sampler", r->choices.sampler,
+                        "how metals draw directions: bounded, plain or conic visible normals; to compare with, ndf:\n"
+                        "any normals, and cosine: none",
+                        render::samplers());
+    choice("--ndf", r->choices.ndf, "distribution of normals: ggx or beckmann", {"ggx", "beckmann"});
+    choice("--masking", r->choices.masking, "masking and shadowing: correlated or separable",
+           {"correlated", "separable"});
+    choice("--random", r->choices.random, "random numbers: sobol, scrambled after Owen, or philox",
+           {"sobol", "philox"});
+    choice("--math", r->math, "policy of elementary functions: strict, builtin or native",
+           {"strict", "builtin", "native"});
+    command->add_option("--effects", r->effects, "auto, what the scene calls for; all; or names, with commas between them")
         ->capture_default_str();
-    command->add_option("--math", r->math, "policy of elementary functions: strict, builtin or native")
-        ->check(CLI::IsMember({"strict", "builtin", "native"}))
-        ->capture_default_str();
+    command->add_flag("--explain", r->explain, "print which effects the scene calls for and what each costs here");
     command->add_option("--orbs", r->orbs, "what the orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
         ->capture_default_str();

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <map>
 
 #include "render/stages.h"
@@ -14,8 +15,8 @@ runtime::ProgramOptions options_with(const std::string& switches) {
 
 class DeviceStages final : public Stages {
   public:
-    DeviceStages(const runtime::Device& device, runtime::Math math, const std::string& switches)
-        : program_(device, math, runtime::Real::f32, options_with(switches)) {}
+    DeviceStages(const runtime::Device& device, runtime::Math math, const std::string& switches, bool timed)
+        : program_(device, math, runtime::Real::f32, options_with(switches)), timed_(timed) {}
 
     Buffer buffer(std::size_t bytes) override {
         return program_.guarded("allocate memory", [&] {
@@ -47,22 +48,35 @@ class DeviceStages final : public Stages {
                 else
                     found->second.setArg(index++, buffers_[argument.buffer]);
             }
+            if (!timed_) return program_.launch(found->second, items);
+            program_.queue().finish();
+            const auto start = std::chrono::steady_clock::now();
             program_.launch(found->second, items);
+            program_.queue().finish();
+            seconds_[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         });
+    }
+
+    double seconds(const std::string& stage) const override {
+        const auto found = seconds_.find(stage);
+        return found == seconds_.end() ? 0 : found->second;
     }
 
     std::string describe() const override { return program_.device().label(); }
 
   private:
     runtime::Program program_;
+    bool timed_;
+    std::map<std::string, double> seconds_;
     std::vector<cl::Buffer> buffers_;
     std::map<std::string, cl::Kernel> kernels_;
 };
 
 }  // namespace
 
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches) {
-    return std::make_unique<DeviceStages>(device, math, switches);
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches,
+                                      bool timed) {
+    return std::make_unique<DeviceStages>(device, math, switches, timed);
 }
 
 }  // namespace vndf::render

@@ -27,16 +27,24 @@ Vec narrow(const Vec3& a) {
 }
 
 // Reflectances along the normal for 630, 550 and 465 nm, rounded.
-constexpr Vec silver{0.97f, 0.96f, 0.91f}, gold{1.0f, 0.78f, 0.34f}, copper{0.96f, 0.64f, 0.54f},
-    iron{0.56f, 0.57f, 0.58f}, aluminium{0.91f, 0.92f, 0.92f};
+constexpr Vec silver{0.97f, 0.96f, 0.91f}, gold{1.0f, 0.78f, 0.34f};
+
+Material metal(Vec eta, Vec k, float alpha) {
+    Material m = conductor(eta, alpha, alpha);
+    m.second = k;
+    return m;
+}
 
 std::array<Material, 5> materials_of(std::string_view kind) {
     if (kind == "anisotropy")
         return {conductor(silver, 0.02f, 0.3f), conductor(silver, 0.3f, 0.02f), conductor(silver, 0.1f, 0.4f),
                 conductor(silver, 0.05f, 0.8f), conductor(silver, 0.8f, 0.05f)};
-    if (kind == "metals")
-        return {conductor(silver, 0.05f, 0.05f), conductor(gold, 0.15f, 0.15f), conductor(copper, 0.25f, 0.25f),
-                conductor(iron, 0.35f, 0.35f), conductor(aluminium, 0.5f, 0.5f)};
+    if (kind == "metals")  // silver, gold, copper, iron, aluminium by their eta and k
+        return {metal({0.155f, 0.117f, 0.138f}, {4.83f, 3.12f, 2.15f}, 0.03f),
+                metal({0.143f, 0.375f, 1.442f}, {3.98f, 2.39f, 1.60f}, 0.1f),
+                metal({0.200f, 0.924f, 1.102f}, {3.91f, 2.45f, 2.14f}, 0.2f),
+                metal({2.870f, 2.950f, 2.650f}, {3.05f, 2.93f, 2.77f}, 0.3f),
+                metal({1.345f, 0.965f, 0.617f}, {7.47f, 6.40f, 5.30f}, 0.4f)};
     if (kind == "diffuse")
         return {lambert({0.7f, 0.2f, 0.15f}), lambert({0.7f, 0.5f, 0.2f}), lambert({0.7f, 0.7f, 0.7f}),
                 lambert({0.3f, 0.55f, 0.25f}), lambert({0.2f, 0.3f, 0.6f})};
@@ -47,12 +55,18 @@ std::array<Material, 5> materials_of(std::string_view kind) {
 void add_floor(Scene& scene) {
     const std::uint32_t light = scene.add_material(lambert({0.42f, 0.40f, 0.38f})),
                         dark = scene.add_material(lambert({0.20f, 0.20f, 0.21f}));
-    constexpr int half = 24;
-    constexpr float side = 1.25f;
+    constexpr int half = 56;
+    constexpr float side = 1.25f, edge = half * side, far = 2000;
     for (int row = -half; row < half; ++row)
         for (int column = -half; column < half; ++column)
             scene.add_square(side * column, side * row, side * (column + 1), side * (row + 1),
                              (row + column) & 1 ? light : dark);
+    // Around it, to the horizon, what the squares look like from afar.
+    const std::uint32_t both = scene.add_material(lambert({0.31f, 0.30f, 0.295f}));
+    scene.add_square(-far, -far, far, -edge, both);
+    scene.add_square(-far, edge, far, far, both);
+    scene.add_square(-far, -edge, -edge, edge, both);
+    scene.add_square(edge, -edge, far, edge, both);
 }
 
 }  // namespace
@@ -127,18 +141,21 @@ Scene orbs(std::string_view kind) {
     Scene scene;
     scene.name = "orbs of " + std::string(kind);
     const auto materials = materials_of(kind);
-    for (int i = 0; i < 5; ++i) scene.add_sphere({2.3f * static_cast<float>(i - 2), 1, 0}, 1, 80, materials[i]);
+    // A hair above the floor, by more than rays keep from a surface: no path gets below it, or into an orb.
+    constexpr float lifted = 1.002f;
+    for (int i = 0; i < 5; ++i) scene.add_sphere({2.3f * static_cast<float>(i - 2), lifted, 0}, 1, 80, materials[i]);
+    if (kind == "metals") scene.fresnel = "conductor";
     add_floor(scene);
-    scene.sky.zenith = {0.16f, 0.30f, 0.62f};
+    scene.sky.zenith = {0.10f, 0.22f, 0.55f};
     scene.sky.horizon = {0.78f, 0.86f, 0.95f};
-    scene.sky.ground = {0.36f, 0.36f, 0.37f};
+    scene.sky.ground = {0.5f, 0.52f, 0.55f};
     scene.sky.to_sun = narrow(unit({-0.55, 0.62, 0.56}));
     scene.sky.sun_radius = 0.03f;
     // An irradiance of three times the sky's or so.
     const double sine = std::sin(scene.sky.sun_radius), irradiance = 4.2;
     const double radiance = irradiance / (std::numbers::pi * sine * sine);
     scene.sky.sun = narrow(scaled({1.0, 0.93, 0.82}, radiance));
-    scene.camera = {{0, 3.1f, 14}, {0, 0.86f, 0}, 0.86f};
+    scene.camera = {{-1.2f, 2.7f, 14.2f}, {0, 0.82f, 0}, 0.855f};
     return scene;
 }
 

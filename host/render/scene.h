@@ -51,6 +51,8 @@ struct Scene {
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
+    std::string fresnel = "schlick";  // the model of every conductor, a value of VNDF_FRESNEL
+    bool open = false;                // surfaces may be seen from behind
     Sky sky;
     Camera camera;
 

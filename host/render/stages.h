@@ -39,6 +39,8 @@ class Stages {
     // Runs vndf_render_<stage> on at least `items` items, in whole groups.
     virtual void launch(const std::string& stage, std::size_t items, Arguments arguments) = 0;
     virtual std::string describe() const = 0;
+    // Spent in a stage so far, where stages are timed.
+    virtual double seconds(const std::string&) const { return 0; }
 
     template <class T>
     Buffer upload(const std::vector<T>& values) {
@@ -48,8 +50,9 @@ class Stages {
     }
 };
 
-// On a device. `switches`: "-DVNDF_..." for the compiler.
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches);
+// On a device. `switches`: "-DVNDF_..." for the compiler. timed: each stage is waited for, and its time kept.
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches,
+                                      bool timed = false);
 
 // The same text as C++, with every effect; strict, Sobol.
 std::unique_ptr<Stages> cpp_stages();

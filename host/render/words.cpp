@@ -29,7 +29,8 @@ std::vector<std::uint32_t> Words::next() {
             continue;
         }
         for (unsigned k = 0; k < 4; ++k) {
-            at[2 * k] = reversed(sequence_());
+            // The engine leaves out the first point, the origin.
+            at[2 * k] = sample_ == 0 ? 0 : reversed(sequence_());
             at[2 * k + 1] = static_cast<std::uint32_t>(splitmix64(splitmix64(seed_) + 4 * quad + k) >> 32);
         }
     }

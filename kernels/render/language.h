@@ -37,7 +37,7 @@ typedef float float8 __attribute__((vector_size(32)));
 typedef int32_t int8 __attribute__((vector_size(32)));
 typedef uint32_t uint8 __attribute__((vector_size(32)));
 
-static thread_local uint vndf_render_item;
+[[maybe_unused]] static thread_local uint vndf_render_item;
 
 static inline int vndf_render_any(int8 mask) {
     int all = 0;

@@ -49,9 +49,8 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
                                     c = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices, third);
     const struct vndf_render_vector wo =
         vndf_render_scaled(-1.0f, vndf_render_vector_at(path, VNDF_PATH_DX, stride, i));
-    const struct vndf_render_vector across =
-        vndf_render_cross(vndf_render_sum(b, -1.0f, a), vndf_render_sum(c, -1.0f, a));
-    const struct vndf_render_vector face = vndf_render_unit_vector(across);
+    const struct vndf_render_vector ab = vndf_render_sum(b, -1.0f, a), ac = vndf_render_sum(c, -1.0f, a);
+    const struct vndf_render_vector face = vndf_render_unit_vector(vndf_render_cross(ab, ac));
     const float side = vndf_render_side(face, wo);
     const struct vndf_render_vector geometric = vndf_render_scaled(side, face);
 #if VNDF_SHADING_NORMAL
@@ -73,11 +72,11 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
         vndf_render_vector_of(pole ? 1.0f : normal.z, 0.0f, pole ? 0.0f : -normal.x));
     const struct vndf_render_vector wo_local = vndf_render_local(normal, tangent, wo),
                                     geometric_local = vndf_render_local(normal, tangent, geometric);
-    // Rays begin beside the surface, by more than the rounding of its place.
+    // Rays begin beside the surface, by more than the rounding of its place and of the test for hits, which both go with the
+    // triangle's corners.
     const struct vndf_render_vector place = vndf_render_mix(a, b, c, b1, b2);
-    const float size = vndf_impl_max(vndf_impl_max(vndf_impl_abs(place.x), vndf_impl_abs(place.y)),
-                                     vndf_impl_max(vndf_impl_abs(place.z), 1e-3f));
-    const struct vndf_render_vector origin = vndf_render_sum(place, 2e-6f * size, geometric);
+    const float size2 = vndf_render_dot(place, place) + vndf_render_dot(ab, ab) + vndf_render_dot(ac, ac);
+    const struct vndf_render_vector origin = vndf_render_sum(place, 1e-6f * VNDF_SQRT(size2), geometric);
     path[VNDF_PATH_X * stride + i] = origin.x;
     path[VNDF_PATH_Y * stride + i] = origin.y;
     path[VNDF_PATH_Z * stride + i] = origin.z;

@@ -78,6 +78,11 @@ TEST_CASE("every command runs to its end with every option") {
         "emit --help",
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",
+        "render --help",
+        "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking separable --random philox "
+        "--math builtin --orbs anisotropy --effects all --device \"$device\"",
+        "render --output a.exr --size 8x4 --time 0.01 --explain",
+        "render --output b.png --size 8x4 --target-error 0.5",
         "policies --help",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};
     if (has_bench()) {
