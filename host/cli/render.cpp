@@ -122,7 +122,7 @@ void run(const Render& r, Common& common) {
     render::require_image_name(r.output);
     const render::Scene scene = render::orbs(r.orbs);
     const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
-    const std::string switches = render::switches(scene, effects, choices_of(r));
+    const render::Switches switches = render::switches(scene, effects, choices_of(r));
     const runtime::Device device = [&] {
         Target target;
         target.device = r.device;
@@ -144,7 +144,7 @@ void run(const Render& r, Common& common) {
                                 {"estimated error", fmt::format("{:.3g}", image.error)},
                                 {"seed", fmt::format("{}", common.seed)},
                                 {"random numbers", r.choices.random},
-                                {"switches", switches},
+                                {"switches", switches.paths + ' ' + switches.materials},
                                 {"math", r.math},
                                 {"longest path", fmt::format("{} surfaces", r.max_bounces)},
                                 {"device", stages->describe()},

@@ -3,7 +3,8 @@
 #include <tuple>
 #include <utility>
 
-#include "kernels/render/render.cl"
+#include "kernels/render/materials.cl"
+#include "kernels/render/paths.cl"
 
 #include "parallel.h"
 #include "render/stages.h"

@@ -6,17 +6,21 @@
 namespace vndf::render {
 namespace {
 
-runtime::ProgramOptions options_with(const std::string& switches) {
+runtime::ProgramOptions options_of(const char* root, const std::string& switches) {
     runtime::ProgramOptions options;
-    options.root = "kernels/render/render.cl";
+    options.root = root;
     options.build_options = switches;
     return options;
 }
 
+// Two programs, so that another choice of effects compiles the stages that know them alone.
 class DeviceStages final : public Stages {
   public:
-    DeviceStages(const runtime::Device& device, runtime::Math math, const std::string& switches, bool timed)
-        : program_(device, math, runtime::Real::f32, options_with(switches)), timed_(timed) {}
+    DeviceStages(const runtime::Device& device, runtime::Math math, const Switches& switches, bool timed)
+        : program_(device, math, runtime::Real::f32, options_of("kernels/render/paths.cl", switches.paths)),
+          materials_(program_, math, runtime::Real::f32,
+                     options_of("kernels/render/materials.cl", switches.paths + ' ' + switches.materials)),
+          timed_(timed) {}
 
     Buffer buffer(std::size_t bytes) override {
         return program_.guarded("allocate memory", [&] {
@@ -40,7 +44,7 @@ class DeviceStages final : public Stages {
         program_.guarded("run the stage " + stage, [&] {
             auto found = kernels_.find(stage);
             if (found == kernels_.end())
-                found = kernels_.emplace(stage, program_.kernel("vndf_render_" + stage)).first;
+                found = kernels_.emplace(stage, kernel("vndf_render_" + stage)).first;
             cl_uint index = 0;
             for (const Argument& argument : arguments) {
                 if (argument.value)
@@ -65,7 +69,11 @@ class DeviceStages final : public Stages {
     std::string describe() const override { return program_.device().label(); }
 
   private:
-    runtime::Program program_;
+    cl::Kernel kernel(const std::string& name) const {
+        return (program_.has_kernel(name) ? program_ : materials_).kernel(name);
+    }
+
+    runtime::Program program_, materials_;
     bool timed_;
     std::map<std::string, double> seconds_;
     std::vector<cl::Buffer> buffers_;
@@ -74,8 +82,7 @@ class DeviceStages final : public Stages {
 
 }  // namespace
 
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches,
-                                      bool timed) {
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const Switches& switches, bool timed) {
     return std::make_unique<DeviceStages>(device, math, switches, timed);
 }
 

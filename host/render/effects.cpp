@@ -128,16 +128,16 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
     return effects;
 }
 
-std::string switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
+Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
     const bool compared = choices.sampler == "ndf" || choices.sampler == "cosine";
     if (choices.ndf == "beckmann" && !compared && choices.sampler != "plain")
         throw InputError(fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
-    std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={} -DVNDF_RANDOM={}", choices.ndf,
-                                   scene.fresnel, choices.masking, choices.random);
+    std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf, scene.fresnel,
+                                   choices.masking);
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", effect.macro(), effect.on);
-    return text;
+    return {"-DVNDF_RANDOM=" + choices.random, text};
 }
 
 }  // namespace vndf::render

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/scene.h"
+#include "render/stages.h"
 
 namespace vndf::render {
 
@@ -29,7 +30,7 @@ const std::vector<std::string>& samplers();
 // Throws InputError at other names, or if nothing is left of the materials.
 std::vector<Effect> effects_for(const Scene& scene, std::string_view asked);
 
-// "-DVNDF_..." for the compiler. Throws InputError if the choices contradict each other.
-std::string switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices);
+// Throws InputError if the choices contradict each other.
+Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices);
 
 }  // namespace vndf::render

@@ -50,8 +50,13 @@ class Stages {
     }
 };
 
-// On a device. `switches`: "-DVNDF_..." for the compiler. timed: each stage is waited for, and its time kept.
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const std::string& switches,
+// "-DVNDF_..." for the compiler: for all stages, and for those that know materials beside.
+struct Switches {
+    std::string paths, materials;
+};
+
+// On a device. timed: each stage is waited for, and its time kept.
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const Switches& switches,
                                       bool timed = false);
 
 // The same text as C++, with every effect; strict, Sobol.

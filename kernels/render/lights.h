@@ -6,7 +6,7 @@
 #define VNDF_RENDER_LIGHTS_H
 
 #include "random.h"
-#include "surface.h"
+#include "vector.h"
 
 // 1 - cos of the angle to the middle of the sun, of directions near it without cancellation.
 VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, float z) {

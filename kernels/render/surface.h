@@ -25,13 +25,6 @@ VNDF_FN float vndf_render_side(struct vndf_render_vector face, struct vndf_rende
 #endif
 }
 
-// w in the frame of two unit vectors.
-VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector normal, struct vndf_render_vector tangent,
-                                                    struct vndf_render_vector w) {
-    return vndf_render_vector_of(vndf_render_dot(w, tangent), vndf_render_dot(w, vndf_render_cross(normal, tangent)),
-                                 vndf_render_dot(w, normal));
-}
-
 VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) vertices,
                                        VNDF_RENDER_IN(uint) triangles, VNDF_RENDER_IN(float) hit,
                                        VNDF_RENDER_IN(uint) triangle, const uint count, const uint stride,

@@ -44,4 +44,11 @@ VNDF_FN struct vndf_render_vector vndf_render_unit_after(float before, struct vn
     return vndf_render_scaled(1.0f / VNDF_SQRT(square > 0.0f && before >= 0.0f ? square : 1.0f), v);
 }
 
+// w in the frame of two unit vectors.
+VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector normal, struct vndf_render_vector tangent,
+                                                    struct vndf_render_vector w) {
+    return vndf_render_vector_of(vndf_render_dot(w, tangent), vndf_render_dot(w, vndf_render_cross(normal, tangent)),
+                                 vndf_render_dot(w, normal));
+}
+
 #endif

@@ -20,7 +20,7 @@ struct Rendered {
     std::string effects = "auto";
     unsigned samples = 64;
 
-    std::string switches() const {
+    render::Switches switches() const {
         return render::switches(scene, render::effects_for(scene, effects), choices);
     }
     render::Image on(render::Stages& stages) const {
