@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Render {
-    std::string output = "render.png", size = "960x400", math = "strict", device, orbs = "roughness",
+    std::string output = "render.png", size = "960x340", math = "strict", device, orbs = "roughness",
                 effects = "auto";
     render::Choices choices;
     CLI::Option* sampler = nullptr;
@@ -32,7 +32,7 @@ struct Render {
     unsigned max_bounces = 6;
 };
 
-// "960x400"; as many pixels as 32-bit numbers count, beside those of the padding.
+// "960x340"; as many pixels as 32-bit numbers count, beside those of the padding.
 void set_size(const std::string& text, render::Settings& settings) {
     constexpr unsigned longest = 32768;
     const auto number = [&](std::string_view part) -> unsigned {
@@ -44,7 +44,8 @@ void set_size(const std::string& text, render::Settings& settings) {
     settings.width = number(std::string_view(text).substr(0, x));
     settings.height = x < text.size() ? number(std::string_view(text).substr(x + 1)) : 0;
     if (settings.width == 0 || settings.height == 0)
-        throw InputError(fmt::format("--size '{}': expected WxH, such as 960x400, each from 1 to {}", text, longest));
+        throw InputError(
+            fmt::format("--size '{}': expected WxH, such as 960x340, each from 1 to {}", text, longest));
 }
 
 class Goal {
@@ -59,7 +60,8 @@ class Goal {
         if (r_.seconds > 0) share = elapsed() / r_.seconds;
         // Errors fall with the root of the number of samples.
         if (r_.target_error > 0) share = std::max(share, std::pow(r_.target_error / error, 2));
-        if (bounded()) share = std::max(share, static_cast<double>(samples) / (static_cast<double>(r_.spp) * pixels_));
+        if (bounded())
+            share = std::max(share, static_cast<double>(samples) / (static_cast<double>(r_.spp) * pixels_));
         return std::min(share, 1.0);
     }
     // Whether --spp is the goal, as it is without another.
@@ -130,7 +132,8 @@ void run(const Render& r, Common& common) {
     }();
     OutputFile file(r.output);
     const render::Tree tree = render::build_tree(scene);
-    if (r.explain) put(render::explanation({device, math_named(r.math), scene, tree, effects, choices_of(r), settings}));
+    if (r.explain)
+        put(render::explanation({device, math_named(r.math), scene, tree, effects, choices_of(r), settings}));
     const auto stages = render::device_stages(device, math_named(r.math), switches);
     render::Wavefront wavefront(*stages, scene, tree, settings);
     trace(r, wavefront, std::uint64_t{settings.width} * settings.height, common);
@@ -151,8 +154,8 @@ void run(const Render& r, Common& common) {
                                 {"seconds", fmt::format("{:.2f}", seconds)}}));
     file.commit();
     if (!common.quiet)
-        remark("{}: {} x {}, {:.6g} samples per pixel, {:.1f} s, error {:.2g}\n", r.output, image.width, image.height,
-               image.samples, seconds, image.error);
+        remark("{}: {} x {}, {:.6g} samples per pixel, {:.1f} s, error {:.2g}\n", r.output, image.width,
+               image.height, image.samples, seconds, image.error);
     if (image.bad_pixels != 0) {
         remark("clvndf: {} samples in {} pixels were no finite numbers and are left out\n", image.bad_samples,
                image.bad_pixels);
@@ -170,19 +173,24 @@ void add_render(CLI::App& app, Common& common) {
     CLI::Option* const spp =
         add_number(*command, "--spp", r->spp, std::uint64_t{1}, std::uint64_t{1} << 24, "samples per pixel");
     spp->default_str("64");
-    add_number(*command, "--time", r->seconds, 0.001, 1e6, "instead: as many as these seconds allow")->excludes(spp);
+    add_number(*command, "--time", r->seconds, 0.001, 1e6, "instead: as many as these seconds allow")
+        ->excludes(spp);
     add_number(*command, "--target-error", r->target_error, 1e-6, 1.0,
                "instead: until the estimated error, relative to the mean luminance, is at most this")
         ->excludes(spp);
-    add_number(*command, "--max-bounces", r->max_bounces, 0u, 128u, "surfaces that a path may visit")->default_str("6");
+    add_number(*command, "--max-bounces", r->max_bounces, 0u, 128u, "surfaces that a path may visit")
+        ->default_str("6");
     const auto choice = [&](const char* name, std::string& value, const char* description,
                             const std::vector<std::string>& values) {
-        return command->add_option(name, value, description)->check(CLI::IsMember(values))->capture_default_str();
+        return command->add_option(name, value, description)
+            ->check(CLI::IsMember(values))
+            ->capture_default_str();
     };
-    r->sampler = choice("--sampler", r->choices.sampler,
-                        "how metals draw directions: bounded, plain or conic visible normals; to compare with, ndf:\n"
-                        "any normals, and cosine: none",
-                        render::samplers());
+    r->sampler =
+        choice("--sampler", r->choices.sampler,
+               "how metals draw directions: bounded, plain or conic visible normals; to compare with, ndf:\n"
+               "any normals, and cosine: none",
+               render::samplers());
     choice("--ndf", r->choices.ndf, "distribution of normals: ggx or beckmann", {"ggx", "beckmann"});
     choice("--masking", r->choices.masking, "masking and shadowing: correlated or separable",
            {"correlated", "separable"});
@@ -190,9 +198,12 @@ void add_render(CLI::App& app, Common& common) {
            {"sobol", "philox"});
     choice("--math", r->math, "policy of elementary functions: strict, builtin or native",
            {"strict", "builtin", "native"});
-    command->add_option("--effects", r->effects, "auto, what the scene calls for; all; or names, with commas between them")
+    command
+        ->add_option("--effects", r->effects,
+                     "auto, what the scene calls for; all; or names, with commas between them")
         ->capture_default_str();
-    command->add_flag("--explain", r->explain, "print which effects the scene calls for and what each costs here");
+    command->add_flag("--explain", r->explain,
+                      "print which effects the scene calls for and what each costs here");
     command->add_option("--orbs", r->orbs, "what the orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
         ->capture_default_str();

@@ -39,7 +39,8 @@ struct Runner<stage> {
         run(given, begin, end, std::index_sequence_for<Types...>());
     }
     template <std::size_t... index>
-    static void run(const std::vector<Given>& given, std::size_t begin, std::size_t end, std::index_sequence<index...>) {
+    static void run(const std::vector<Given>& given, std::size_t begin, std::size_t end,
+                    std::index_sequence<index...>) {
         const std::tuple<Types...> arguments{as<Types>(given[index])...};
         for (std::size_t i = begin; i < end; ++i) {
             vndf_render_item = static_cast<uint>(i);
@@ -49,19 +50,14 @@ struct Runner<stage> {
 };
 
 const std::map<std::string, Run>& runs() {
-    static const std::map<std::string, Run> all{{"generate", Runner<vndf_render_generate>::run},
-                                                {"traverse", Runner<vndf_render_traverse>::run},
-                                                {"leave", Runner<vndf_render_leave>::run},
-                                                {"lights", Runner<vndf_render_lights>::run},
-                                                {"surface", Runner<vndf_render_surface>::run},
-                                                {"connect", Runner<vndf_render_connect>::run},
-                                                {"scatter", Runner<vndf_render_scatter>::run},
-                                                {"survive", Runner<vndf_render_survive>::run},
-                                                {"shadow", Runner<vndf_render_shadow>::run},
-                                                {"rank", Runner<vndf_render_rank>::run},
-                                                {"offsets", Runner<vndf_render_offsets>::run},
-                                                {"move", Runner<vndf_render_move>::run},
-                                                {"accumulate", Runner<vndf_render_accumulate>::run}};
+    static const std::map<std::string, Run> all{
+        {"generate", Runner<vndf_render_generate>::run},    {"traverse", Runner<vndf_render_traverse>::run},
+        {"leave", Runner<vndf_render_leave>::run},          {"lights", Runner<vndf_render_lights>::run},
+        {"surface", Runner<vndf_render_surface>::run},      {"connect", Runner<vndf_render_connect>::run},
+        {"scatter", Runner<vndf_render_scatter>::run},      {"survive", Runner<vndf_render_survive>::run},
+        {"shadow", Runner<vndf_render_shadow>::run},        {"rank", Runner<vndf_render_rank>::run},
+        {"offsets", Runner<vndf_render_offsets>::run},      {"move", Runner<vndf_render_move>::run},
+        {"accumulate", Runner<vndf_render_accumulate>::run}};
     return all;
 }
 

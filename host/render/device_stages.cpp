@@ -26,18 +26,20 @@ class DeviceStages final : public Stages {
         return program_.guarded("allocate memory", [&] {
             // Never empty, which OpenCL refuses.
             buffers_.push_back(program_.buffer(std::max<std::size_t>(bytes, 4)));
-            program_.queue().enqueueFillBuffer(buffers_.back(), cl_uint{0}, 0, std::max<std::size_t>(bytes, 4) / 4 * 4);
+            program_.queue().enqueueFillBuffer(buffers_.back(), cl_uint{0}, 0,
+                                               std::max<std::size_t>(bytes, 4) / 4 * 4);
             return buffers_.size() - 1;
         });
     }
 
     void write(Buffer to, const void* from, std::size_t bytes) override {
-        program_.guarded("write", [&] { program_.queue().enqueueWriteBuffer(buffers_[to], CL_TRUE, 0, bytes, from); });
+        program_.guarded("write",
+                         [&] { program_.queue().enqueueWriteBuffer(buffers_[to], CL_TRUE, 0, bytes, from); });
     }
 
     void read(Buffer from, void* to, std::size_t bytes, std::size_t offset) override {
-        program_.guarded("read",
-                         [&] { program_.queue().enqueueReadBuffer(buffers_[from], CL_TRUE, offset, bytes, to); });
+        program_.guarded(
+            "read", [&] { program_.queue().enqueueReadBuffer(buffers_[from], CL_TRUE, offset, bytes, to); });
     }
 
     void launch(const std::string& stage, std::size_t items, Arguments arguments) override {
@@ -57,7 +59,8 @@ class DeviceStages final : public Stages {
             const auto start = std::chrono::steady_clock::now();
             program_.launch(found->second, items);
             program_.queue().finish();
-            seconds_[stage] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            seconds_[stage] +=
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         });
     }
 
@@ -82,7 +85,8 @@ class DeviceStages final : public Stages {
 
 }  // namespace
 
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const Switches& switches, bool timed) {
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math,
+                                      const Switches& switches, bool timed) {
     return std::make_unique<DeviceStages>(device, math, switches, timed);
 }
 

@@ -38,11 +38,13 @@ bool flat(const Scene& scene, const Triangle& triangle) {
     const Vertex& c = scene.vertices[triangle.corners[2]];
     if (a.normal != b.normal || a.normal != c.normal) return false;
     // One axis alone: others are not unit vectors to the bit.
-    const auto ones = std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
+    const auto ones =
+        std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
     const auto zeros = std::count(a.normal.begin(), a.normal.end(), 0.0f);
     if (ones != 1 || zeros != 2) return false;
     for (int axis = 0; axis < 3; ++axis)
-        if (a.normal[axis] != 0 && (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis])) return false;
+        if (a.normal[axis] != 0 && (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]))
+            return false;
     return true;
 }
 
@@ -55,16 +57,23 @@ std::string bent_triangles(const Scene& scene) {
 // What calls for each effect. One that is not here is always called for.
 const std::map<std::string, std::function<std::string(const Scene&)>>& callers() {
     static const std::map<std::string, std::function<std::string(const Scene&)>> all{
-        {"conductor", [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
-        {"lambert", [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal < 1; }); }},
+        {"conductor",
+         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
+        {"lambert",
+         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal < 1; }); }},
         {"anisotropic",
          [](const Scene& s) {
-             return materials_that(s, [](const Material& m) { return m.metal > 0 && m.alpha_x != m.alpha_y; });
+             return materials_that(s,
+                                   [](const Material& m) { return m.metal > 0 && m.alpha_x != m.alpha_y; });
          }},
         {"tint",
-         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.tint != Vec{1, 1, 1}; }); }},
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) { return m.tint != Vec{1, 1, 1}; });
+         }},
         {"back_facing",
-         [](const Scene& s) { return s.open ? std::string("surfaces that may be seen from behind") : std::string(); }},
+         [](const Scene& s) {
+             return s.open ? std::string("surfaces that may be seen from behind") : std::string();
+         }},
         {"shading_normal", bent_triangles},
         {"terminator", bent_triangles}};
     return all;
@@ -116,24 +125,27 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
     for (const std::string& word : split(asked)) {
         const auto found = std::find(names.begin(), names.end(), word);
         if (found == names.end())
-            throw InputError(fmt::format("--effects '{}': '{}' is none; auto, all or some of {} are allowed", asked, word,
-                                         fmt::join(names, ",")));
+            throw InputError(fmt::format("--effects '{}': '{}' is none; auto, all or some of {} are allowed",
+                                         asked, word, fmt::join(names, ",")));
         effects[found - names.begin()].on = true;
     }
     const auto on = [&](std::string_view name) {
-        return std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name && e.on; });
+        return std::any_of(effects.begin(), effects.end(),
+                           [&](const Effect& e) { return e.name == name && e.on; });
     };
     if (!on("conductor") && !on("lambert"))
-        throw InputError(fmt::format("--effects '{}': nothing is left of the materials without conductor and lambert", asked));
+        throw InputError(fmt::format(
+            "--effects '{}': nothing is left of the materials without conductor and lambert", asked));
     return effects;
 }
 
 Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
     const bool compared = choices.sampler == "ndf" || choices.sampler == "cosine";
     if (choices.ndf == "beckmann" && !compared && choices.sampler != "plain")
-        throw InputError(fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
-    std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf, scene.fresnel,
-                                   choices.masking);
+        throw InputError(
+            fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
+    std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
+                                   scene.fresnel, choices.masking);
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", effect.macro(), effect.on);

@@ -11,8 +11,8 @@
 namespace vndf::render {
 
 struct Effect {
-    std::string name;        // "anisotropic"
-    std::string called_by;   // what in the scene calls for it; empty: nothing does
+    std::string name;       // "anisotropic"
+    std::string called_by;  // what in the scene calls for it; empty: nothing does
     bool on = true;
 
     std::string macro() const;  // "VNDF_ANISOTROPIC"

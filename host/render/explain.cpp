@@ -20,13 +20,15 @@ Rendering rendering(const Explained& what, const std::vector<Effect>& effects) {
     Settings settings = what.settings;
     settings.height = std::max(1u, settings.height * width / settings.width);
     settings.width = width;
-    const auto stages = device_stages(what.device, what.math, switches(what.scene, effects, what.choices), true);
+    const auto stages =
+        device_stages(what.device, what.math, switches(what.scene, effects, what.choices), true);
     Wavefront wavefront(*stages, what.scene, what.tree, settings);
     Rendering result;
     double before = 0, fastest = 1e9;
     for (unsigned i = 0; i < samples; ++i) {
         wavefront.add_sample();
-        const double now = stages->seconds("surface") + stages->seconds("connect") + stages->seconds("scatter");
+        const double now =
+            stages->seconds("surface") + stages->seconds("connect") + stages->seconds("scatter");
         if (i > 0) fastest = std::min(fastest, now - before);  // the first compiles
         before = now;
     }
@@ -50,7 +52,8 @@ double difference(const Image& a, const Image& b) {
 bool may_turn_off(const std::vector<Effect>& effects, const Effect& effect) {
     if (effect.name != "conductor" && effect.name != "lambert") return true;
     return std::any_of(effects.begin(), effects.end(), [&](const Effect& other) {
-        return other.on && other.name != effect.name && (other.name == "conductor" || other.name == "lambert");
+        return other.on && other.name != effect.name &&
+               (other.name == "conductor" || other.name == "lambert");
     });
 }
 
@@ -67,22 +70,24 @@ std::string cost(const Explained& what, std::size_t i, double usual) {
 
 std::string explanation(Explained what) {
     const Rendering usual = rendering(what, what.effects);
-    std::string text = fmt::format("{:<16}{:<46}{:<26}{}\n", "effect", "called for by", "switch", "cost of shading");
+    std::string text =
+        fmt::format("{:<16}{:<46}{:<26}{}\n", "effect", "called for by", "switch", "cost of shading");
     std::string simplifications;
     for (std::size_t i = 0; i < what.effects.size(); ++i) {
         const Effect& effect = what.effects[i];
-        text += fmt::format("{:<16}{:<46}{:<26}{}\n", effect.name, effect.called_by.empty() ? "nothing" : effect.called_by,
+        text += fmt::format("{:<16}{:<46}{:<26}{}\n", effect.name,
+                            effect.called_by.empty() ? "nothing" : effect.called_by,
                             fmt::format("{}={:d}", effect.macro(), effect.on), cost(what, i, usual.shading));
         if (effect.on || effect.called_by.empty()) continue;
         std::vector<Effect> whole = what.effects;
         whole[i].on = true;
-        simplifications += fmt::format("{} is off although {} calls for it: a deliberate simplification, which changes the "
-                                       "image by {:.2g} of its mean (root mean square)\n",
-                                       effect.name, effect.called_by,
-                                       difference(usual.image, rendering(what, whole).image));
+        simplifications += fmt::format(
+            "{} is off although {} calls for it: a deliberate simplification, which changes the "
+            "image by {:.2g} of its mean (root mean square)\n",
+            effect.name, effect.called_by, difference(usual.image, rendering(what, whole).image));
     }
-    text += fmt::format("choices: ndf {}, sampler {}, fresnel {}, masking {}\n", what.choices.ndf, what.choices.sampler,
-                        what.scene.fresnel, what.choices.masking);
+    text += fmt::format("choices: ndf {}, sampler {}, fresnel {}, masking {}\n", what.choices.ndf,
+                        what.choices.sampler, what.scene.fresnel, what.choices.masking);
     return text + simplifications;
 }
 

@@ -64,7 +64,8 @@ std::string exr(const Image& image, const Metadata& metadata) {
     for (int channel = 0; channel < 3; ++channel) {
         header.channels().insert(names[channel], Imf::Channel(Imf::FLOAT));
         char* const base = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data() + channel));
-        frame.insert(names[channel], Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float), 3 * sizeof(float) * image.width));
+        frame.insert(names[channel],
+                     Imf::Slice(Imf::FLOAT, base, 3 * sizeof(float), 3 * sizeof(float) * image.width));
     }
     Memory memory;
     {
@@ -99,16 +100,16 @@ std::string png(const Image& image) {
     const auto append = [](void* to, void* data, int size) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
     };
-    stbi_write_png_to_func(append, &file, static_cast<int>(image.width), static_cast<int>(image.height), 3, bytes.data(),
-                           static_cast<int>(3 * image.width));
+    stbi_write_png_to_func(append, &file, static_cast<int>(image.width), static_cast<int>(image.height), 3,
+                           bytes.data(), static_cast<int>(3 * image.width));
     return file;
 }
 
 #endif
 
 [[noreturn]] void lacks(const std::string& path, const char* library, const char* package) {
-    throw DeviceError(fmt::format("{}: this build has no {}; install {}, then configure and build again", path, library,
-                                  package));
+    throw DeviceError(fmt::format("{}: this build has no {}; install {}, then configure and build again",
+                                  path, library, package));
 }
 
 }  // namespace
@@ -123,7 +124,8 @@ void require_image_name(const std::string& path) {
         lacks(path, "stb", "libstb-dev");
 #endif
     } else {
-        throw InputError(fmt::format("--output '{}': no name of an image; names that end in .exr or .png are allowed", path));
+        throw InputError(fmt::format(
+            "--output '{}': no name of an image; names that end in .exr or .png are allowed", path));
     }
 }
 

@@ -53,8 +53,8 @@ std::array<Material, 5> materials_of(std::string_view kind) {
 }
 
 void add_floor(Scene& scene) {
-    const std::uint32_t light = scene.add_material(lambert({0.42f, 0.40f, 0.38f})),
-                        dark = scene.add_material(lambert({0.20f, 0.20f, 0.21f}));
+    const std::uint32_t light = scene.add_material(lambert({0.52f, 0.48f, 0.43f})),
+                        dark = scene.add_material(lambert({0.16f, 0.155f, 0.15f}));
     constexpr int half = 56;
     constexpr float side = 1.25f, edge = half * side, far = 2000;
     for (int row = -half; row < half; ++row)
@@ -62,7 +62,7 @@ void add_floor(Scene& scene) {
             scene.add_square(side * column, side * row, side * (column + 1), side * (row + 1),
                              (row + column) & 1 ? light : dark);
     // Around it, to the horizon, what the squares look like from afar.
-    const std::uint32_t both = scene.add_material(lambert({0.31f, 0.30f, 0.295f}));
+    const std::uint32_t both = scene.add_material(lambert({0.34f, 0.3175f, 0.29f}));
     scene.add_square(-far, -far, far, -edge, both);
     scene.add_square(-far, edge, far, far, both);
     scene.add_square(-far, -edge, -edge, edge, both);
@@ -143,19 +143,20 @@ Scene orbs(std::string_view kind) {
     const auto materials = materials_of(kind);
     // A hair above the floor, by more than rays keep from a surface: no path gets below it, or into an orb.
     constexpr float lifted = 1.002f;
-    for (int i = 0; i < 5; ++i) scene.add_sphere({2.3f * static_cast<float>(i - 2), lifted, 0}, 1, 80, materials[i]);
+    for (int i = 0; i < 5; ++i)
+        scene.add_sphere({2.3f * static_cast<float>(i - 2), lifted, 0}, 1, 80, materials[i]);
     if (kind == "metals") scene.fresnel = "conductor";
     add_floor(scene);
-    scene.sky.zenith = {0.10f, 0.22f, 0.55f};
-    scene.sky.horizon = {0.78f, 0.86f, 0.95f};
+    scene.sky.zenith = {0.09f, 0.20f, 0.50f};
+    scene.sky.horizon = {0.82f, 0.86f, 0.92f};
     scene.sky.ground = {0.5f, 0.52f, 0.55f};
     scene.sky.to_sun = narrow(unit({-0.55, 0.62, 0.56}));
-    scene.sky.sun_radius = 0.03f;
+    scene.sky.sun_radius = 0.045f;
     // An irradiance of three times the sky's or so.
-    const double sine = std::sin(scene.sky.sun_radius), irradiance = 4.2;
+    const double sine = std::sin(scene.sky.sun_radius), irradiance = 3.6;
     const double radiance = irradiance / (std::numbers::pi * sine * sine);
     scene.sky.sun = narrow(scaled({1.0, 0.93, 0.82}, radiance));
-    scene.camera = {{-1.2f, 2.7f, 14.2f}, {0, 0.82f, 0}, 0.855f};
+    scene.camera = {{-1.5f, 2.05f, 14.5f}, {0, 0.98f, 0}, 0.82f};
     return scene;
 }
 
@@ -177,12 +178,11 @@ vndf_render_sky sky_of(const Sky& sky) {
     const bool sun = sky.sun_share > 0;
     const Vec none{};
     const Vec& light = sun ? sky.sun : none;
-    return {sky.zenith[0],  sky.zenith[1], sky.zenith[2],
-            sky.horizon[0], sky.horizon[1], sky.horizon[2],
-            sky.ground[0],  sky.ground[1], sky.ground[2],
-            light[0],       light[1],      light[2],
-            sky.to_sun[0],  sky.to_sun[1], sky.to_sun[2],
-            static_cast<float>(2 * half * half), sky.sun_share};
+    return {sky.zenith[0],  sky.zenith[1],  sky.zenith[2], sky.horizon[0],
+            sky.horizon[1], sky.horizon[2], sky.ground[0], sky.ground[1],
+            sky.ground[2],  light[0],       light[1],      light[2],
+            sky.to_sun[0],  sky.to_sun[1],  sky.to_sun[2], static_cast<float>(2 * half * half),
+            sky.sun_share};
 }
 
 }  // namespace vndf::render

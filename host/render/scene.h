@@ -16,8 +16,9 @@ using Vec = std::array<float, 3>;
 // As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, Lambert's reflection, or a mix of both.
 struct Material {
     float alpha_x = 1, alpha_y = 1;
-    float metal = 1;                   // the conductor's share
-    Vec first{1, 1, 1}, second{1, 1, 1};  // of its reflectance: f0 and f90, eta and k, or f0 and the tint at 82 degrees
+    float metal = 1;  // the conductor's share
+    Vec first{1, 1, 1},
+        second{1, 1, 1};  // of its reflectance: f0 and f90, eta and k, or f0 and the tint at 82 degrees
     Vec tint{1, 1, 1}, albedo{};
 
     bool operator==(const Material&) const = default;

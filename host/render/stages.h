@@ -56,8 +56,8 @@ struct Switches {
 };
 
 // On a device. timed: each stage is waited for, and its time kept.
-std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math, const Switches& switches,
-                                      bool timed = false);
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math,
+                                      const Switches& switches, bool timed = false);
 
 // The same text as C++, with every effect; strict, Sobol.
 std::unique_ptr<Stages> cpp_stages();

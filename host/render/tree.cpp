@@ -44,7 +44,8 @@ void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(Node), 16)) Node;
 }
 
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
+                  void*) {
     Node* const leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Node), 16)) Node;
     leaf->triangles = static_cast<unsigned>(count);
     for (std::size_t i = 0; i < count; ++i) leaf->triangle[i] = primitives[i].primID;
@@ -122,8 +123,9 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
             for (int axis = 0; axis < 3; ++axis) {
                 const float place = scene.vertices.at(corner).place[axis];
                 if (!(std::abs(place) < farthest))
-                    throw InputError(fmt::format("{}: triangle {} has a corner at {}; finite numbers below {} are allowed",
-                                                 scene.name, i, place, farthest));
+                    throw InputError(
+                        fmt::format("{}: triangle {} has a corner at {}; finite numbers below {} are allowed",
+                                    scene.name, i, place, farthest));
                 low[axis] = std::min(low[axis], place);
                 high[axis] = std::max(high[axis], place);
             }
@@ -154,7 +156,8 @@ Tree build_tree(const Scene& scene) {
         return tree;
     }
     const std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device(rtcNewDevice(nullptr));
-    const std::unique_ptr<std::remove_pointer_t<RTCBVH>, Release> bvh(device ? rtcNewBVH(device.get()) : nullptr);
+    const std::unique_ptr<std::remove_pointer_t<RTCBVH>, Release> bvh(device ? rtcNewBVH(device.get())
+                                                                             : nullptr);
     if (!bvh) throw DeviceError("Embree cannot be started");
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.bvh = bvh.get();
@@ -171,8 +174,9 @@ Tree build_tree(const Scene& scene) {
     arguments.setNodeBounds = set_bounds;
     arguments.createLeaf = create_leaf;
     const Node* const root = static_cast<const Node*>(rtcBuildBVH(&arguments));
-    if (!root) throw DeviceError(fmt::format("Embree built no tree over the scene's triangles (error {})",
-                                             static_cast<int>(rtcGetDeviceError(device.get()))));
+    if (!root)
+        throw DeviceError(fmt::format("Embree built no tree over the scene's triangles (error {})",
+                                      static_cast<int>(rtcGetDeviceError(device.get()))));
     if (root->children != 0) {
         flattener.append(*root, 0);
     } else {  // the root of the kernels is a node
@@ -186,7 +190,9 @@ Tree build_tree(const Scene& scene) {
 #else
 
 Tree build_tree(const Scene&) {
-    throw DeviceError("this build has no Embree, which builds the tree over the triangles; install libembree-dev, then configure and build again");
+    throw DeviceError(
+        "this build has no Embree, which builds the tree over the triangles; install libembree-dev, then "
+        "configure and build again");
 }
 
 #endif

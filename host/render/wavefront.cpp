@@ -36,7 +36,8 @@ std::vector<std::uint32_t> triangle_table(const Scene& scene) {
 std::vector<float> material_table(const Scene& scene) {
     return planes_of<float>(VNDF_MATERIAL_PLANES, scene.materials, [](const Material& m) {
         std::vector<float> row{m.alpha_x, m.alpha_y, m.metal};
-        for (const Vec& rgb : {m.first, m.second, m.tint, m.albedo}) row.insert(row.end(), rgb.begin(), rgb.end());
+        for (const Vec& rgb : {m.first, m.second, m.tint, m.albedo})
+            row.insert(row.end(), rgb.begin(), rgb.end());
         return row;
     });
 }
@@ -80,7 +81,9 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     offset_ = planes(1);
     light_ = planes(3);
     film_ = stages_.buffer(std::size_t{VNDF_FILM_PLANES} * film_stride_ * sizeof(float));
-    word_buffer_ = stages_.upload(Words(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)).next());
+    word_buffer_ = stages_.upload(
+        Words(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces))
+            .next());
 }
 
 bool Wavefront::add_sample(const std::function<bool()>& stop) {
@@ -112,19 +115,24 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
                             chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
         const std::int32_t roulette = bounce >= roulette_from;
         const std::size_t whole = whole_chunks(count);
-        stages_.launch("surface", whole,
-                       {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
-        stages_.launch("lights", whole, {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
+        stages_.launch(
+            "surface", whole,
+            {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
+        stages_.launch("lights", whole,
+                       {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
         stages_.launch("connect", whole, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
         stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
-        stages_.launch("scatter", whole,
-                       {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
-        stages_.launch("survive", whole, {material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette,
-                                          path, alive_});
+        stages_.launch(
+            "scatter", whole,
+            {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
+        stages_.launch(
+            "survive", whole,
+            {material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path, alive_});
         stages_.launch("rank", chunks, {alive_, chunks, rank_, offset_});
         stages_.launch("offsets", 1, {chunks, offset_});
         side = 1 - side;
-        stages_.launch("move", whole, {path, slot, alive_, rank_, offset_, stride_, path_[side], slot_[side]});
+        stages_.launch("move", whole,
+                       {path, slot, alive_, rank_, offset_, stride_, path_[side], slot_[side]});
         stages_.read(offset_, &count, sizeof count, chunks * sizeof count);
     }
 }
@@ -138,11 +146,13 @@ Image Wavefront::image() {
     double luminance = 0, square = 0;
     for (std::uint32_t pixel = 0; pixel < pixels_; ++pixel) {
         const std::uint64_t taken = samples_ + (pixel < ahead_);
-        const double bad = plane(VNDF_FILM_BAD, pixel), good = std::max(1.0, static_cast<double>(taken) - bad);
+        const double bad = plane(VNDF_FILM_BAD, pixel),
+                     good = std::max(1.0, static_cast<double>(taken) - bad);
         image.bad_pixels += bad > 0;
         image.bad_samples += static_cast<std::uint64_t>(bad);
         for (int channel = 0; channel < 3; ++channel)
-            image.pixels[3 * pixel + channel] = static_cast<float>(plane(VNDF_FILM_RED + channel, pixel) / good);
+            image.pixels[3 * pixel + channel] =
+                static_cast<float>(plane(VNDF_FILM_RED + channel, pixel) / good);
         const float* const rgb = &image.pixels[3 * pixel];
         const double mean = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
         luminance += mean;

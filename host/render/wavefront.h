@@ -15,7 +15,7 @@
 namespace vndf::render {
 
 struct Settings {
-    unsigned width = 960, height = 400;
+    unsigned width = 960, height = 340;
     unsigned max_bounces = 6;  // surfaces that a path may visit
     std::uint64_t seed = 1;
     Random random = Random::sobol;
@@ -55,7 +55,8 @@ class Wavefront {
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
     Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, word_buffer_;
-    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, surface_, material_, alive_, rank_, offset_, light_, film_;
+    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, surface_, material_, alive_, rank_, offset_,
+        light_, film_;
 };
 
 }  // namespace vndf::render

@@ -20,8 +20,8 @@ VNDF_FN float vndf_render_light_pdf(struct vndf_render_sky sky, float up, int in
 }
 
 // One channel of the sky.
-VNDF_FN float vndf_render_radiance(float zenith, float horizon, float ground, float low4, int above, float sun,
-                                   int in_sun) {
+VNDF_FN float vndf_render_radiance(float zenith, float horizon, float ground, float low4, int above,
+                                   float sun, int in_sun) {
     return (above ? VNDF_FMA(horizon - zenith, low4, zenith) : ground) + (in_sun ? sun : 0.0f);
 }
 
@@ -42,7 +42,8 @@ VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_REN
     const float gap = to_sun ? u.b * sky.sun_gap : 1.0f - VNDF_SQRT(u.b);
     const float radius = VNDF_SQRT(gap * (2.0f - gap)), height = 1.0f - gap;
     const float a = radius * vndf_impl_circle_cos(u.c), b = radius * vndf_impl_circle_sin(u.c);
-    const float nx = to_sun ? sky.sun_x : 0.0f, ny = to_sun ? sky.sun_y : 1.0f, nz = to_sun ? sky.sun_z : 0.0f;
+    const float nx = to_sun ? sky.sun_x : 0.0f, ny = to_sun ? sky.sun_y : 1.0f,
+                nz = to_sun ? sky.sun_z : 0.0f;
     // Duff et al., Building an Orthonormal Basis, Revisited, 2017, about y, which is up.
     const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), c = nx * nz * k;
     const float x = VNDF_FMA(a, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(b, c, height * nx));
@@ -55,12 +56,10 @@ VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_REN
     light[VNDF_LIGHT_DZ * stride + i] = z;
     light[VNDF_LIGHT_RED * stride + i] = vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red,
                                                               low4, y >= 0.0f, sky.sun_red, in_sun);
-    light[VNDF_LIGHT_GREEN * stride + i] =
-        vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green, low4, y >= 0.0f,
-                             sky.sun_green, in_sun);
-    light[VNDF_LIGHT_BLUE * stride + i] =
-        vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, y >= 0.0f,
-                             sky.sun_blue, in_sun);
+    light[VNDF_LIGHT_GREEN * stride + i] = vndf_render_radiance(
+        sky.zenith_green, sky.horizon_green, sky.ground_green, low4, y >= 0.0f, sky.sun_green, in_sun);
+    light[VNDF_LIGHT_BLUE * stride + i] = vndf_render_radiance(
+        sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, y >= 0.0f, sky.sun_blue, in_sun);
     light[VNDF_LIGHT_PDF * stride + i] = vndf_render_light_pdf(sky, y, in_sun);
     const struct vndf_render_vector framed = vndf_render_local(
         vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
@@ -91,9 +90,9 @@ VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_REND
     const int left = triangle[i] == VNDF_MISS && i < count;
     const uint to = i < count ? slot[i] : stride - 1;
     const float kept = left ? weight : 0.0f;
-    light[to] +=
-        kept * path[VNDF_PATH_RED * stride + i] *
-        vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4, y >= 0.0f, sky.sun_red, in_sun);
+    light[to] += kept * path[VNDF_PATH_RED * stride + i] *
+                 vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4, y >= 0.0f,
+                                      sky.sun_red, in_sun);
     light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] *
                           vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green, low4,
                                                y >= 0.0f, sky.sun_green, in_sun);

@@ -42,7 +42,8 @@ struct vndf_render_row {
 
 // Three channels. LLVM would pack neighbours of which the same is computed, and PoCL then not vectorise across work-items: for
 // the compiler each is something else.
-VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row, uint plane) {
+VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
+                                           uint plane) {
     return vndf_impl_rgb(materials[plane * row.count + row.number],
                          row.one * materials[(plane + 1) * row.count + row.number],
                          row.one * (row.one * materials[(plane + 2) * row.count + row.number]));
@@ -104,7 +105,8 @@ VNDF_FN struct vndf_render_value vndf_render_evaluate(VNDF_REAL3 wo, VNDF_REAL3 
     return value;
 }
 
-VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u, float u_lobe) {
+VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u,
+                                                      float u_lobe) {
     const struct vndf_bsdf_direction drawn = vndf_bsdf_sample(wo, b, u, u_lobe);
     struct vndf_render_direction d;
     d.x = drawn.wi_x;
@@ -161,7 +163,8 @@ VNDF_FN struct vndf_render_value vndf_render_evaluate(VNDF_REAL3 wo, VNDF_REAL3 
     return value;
 }
 
-VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u, float u_lobe) {
+VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u,
+                                                      float u_lobe) {
     const VNDF_REAL3 even = vndf_lambert_sample_wi(u);
     const int mirrored = u_lobe < vndf_render_mirrored_share(b);
     struct vndf_render_direction d;

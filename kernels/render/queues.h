@@ -102,9 +102,9 @@ struct vndf_render_sizes {
 
 // The view and the lights, passed by value. Floats and uints alone: the same layout everywhere.
 struct vndf_render_view {
-    float x, y, z;                        // the eye
-    float right_x, right_y, right_z;      // from the middle of the film to its right edge, at distance 1
-    float up_x, up_y, up_z;               // to its upper edge
+    float x, y, z;                    // the eye
+    float right_x, right_y, right_z;  // from the middle of the film to its right edge, at distance 1
+    float up_x, up_y, up_z;           // to its upper edge
     float forward_x, forward_y, forward_z;
     unsigned int width, height;
 };

@@ -21,8 +21,8 @@ struct vndf_render_quad {
     float a, b, c, d;  // in [0, 1), multiples of 2^-24
 };
 
-VNDF_FN float vndf_render_unit(uint bits) {
-    return (float)(int)(bits >> 8) * 5.9604644775390625e-08f;
+VNDF_FN float vndf_render_unit(uint bits24) {
+    return (float)(int)bits24 * 5.9604644775390625e-08f;
 }
 
 #if VNDF_CAT(VNDF_RANDOM_IS_, VNDF_RANDOM) == VNDF_RANDOM_IS_philox
@@ -37,10 +37,10 @@ VNDF_FN struct vndf_render_quad vndf_render_random(VNDF_RENDER_FROM(uint) words,
     const philox4x32_key_t key = {{words[0], words[1]}};
     const philox4x32_ctr_t bits = philox4x32(counter, key);
     struct vndf_render_quad u;
-    u.a = vndf_render_unit(bits.v[0]);
-    u.b = vndf_render_unit(bits.v[1]);
-    u.c = vndf_render_unit(bits.v[2]);
-    u.d = vndf_render_unit(bits.v[3]);
+    u.a = vndf_render_unit(bits.v[0] >> 8);
+    u.b = vndf_render_unit(bits.v[1] >> 8);
+    u.c = vndf_render_unit(bits.v[2] >> 8);
+    u.d = vndf_render_unit(bits.v[3] >> 8);
     return u;
 }
 
@@ -52,15 +52,17 @@ VNDF_FN uint vndf_render_hash(uint x) {  // lowbias32, Wellons 2018
     return x ^ (x >> 16);
 }
 
-VNDF_FN uint vndf_render_reversed(uint x) {
+// The lower 24 bits in reverse, the lowest on top. none: 0, a number that the compiler does not know, which would make an
+// instruction of it that Oclgrind lacks.
+VNDF_FN uint vndf_render_reversed24(uint x, uint none) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
-    return (x >> 16) | (x << 16);
+    x = (((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4)) ^ none;
+    return ((x & 0xffu) << 16) | (x & 0xff00u) | ((x >> 16) & 0xffu);
 }
 
-VNDF_FN uint vndf_render_scrambled(uint word, uint key, uint pixel) {
+// The upper 24 bits of a coordinate whose bits are `word` from the lowest up.
+VNDF_FN uint vndf_render_scrambled(uint word, uint key, uint pixel, uint none) {
     const uint seed = vndf_render_hash(pixel * 0x9e3779b9u + key);
     uint x = word;
     x ^= x * 0x3d20adeau;
@@ -68,17 +70,17 @@ VNDF_FN uint vndf_render_scrambled(uint word, uint key, uint pixel) {
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return vndf_render_reversed(x);
+    return vndf_render_reversed24(x, none);
 }
 
 VNDF_FN struct vndf_render_quad vndf_render_random(VNDF_RENDER_FROM(uint) words, uint pixel) {
     // The last word is 0. It makes each number depend on the one before, for the compiler alone, which would pack them, and PoCL
     // then not vectorise across work-items.
     const uint none = words[8];
-    const uint a = vndf_render_scrambled(words[0], words[1], pixel);
-    const uint b = vndf_render_scrambled(words[2] ^ (a & none), words[3], pixel);
-    const uint c = vndf_render_scrambled(words[4] ^ (b & none), words[5], pixel);
-    const uint d = vndf_render_scrambled(words[6] ^ (c & none), words[7], pixel);
+    const uint a = vndf_render_scrambled(words[0], words[1], pixel, none);
+    const uint b = vndf_render_scrambled(words[2] ^ (a & none), words[3], pixel, none);
+    const uint c = vndf_render_scrambled(words[4] ^ (b & none), words[5], pixel, none);
+    const uint d = vndf_render_scrambled(words[6] ^ (c & none), words[7], pixel, none);
     struct vndf_render_quad u;
     u.a = vndf_render_unit(a);
     u.b = vndf_render_unit(b);

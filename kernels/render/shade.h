@@ -12,8 +12,9 @@
 VNDF_FN VNDF_REAL3 vndf_render_argument(VNDF_RENDER_FROM(float) planes, uint k, uint stride, uint i) {
     return VNDF_MAKE3(planes[k * stride + i], planes[(k + 1) * stride + i], planes[(k + 2) * stride + i]);
 }
-VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes, VNDF_RENDER_FROM(float) materials,
-                                             uint number, VNDF_RENDER_FROM(float) surface, uint stride, uint i) {
+VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
+                                             VNDF_RENDER_FROM(float) materials, uint number,
+                                             VNDF_RENDER_FROM(float) surface, uint stride, uint i) {
     struct vndf_render_row row;
     row.count = sizes.materials;
     row.number = number == VNDF_MISS ? 0 : number;

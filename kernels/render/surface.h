@@ -37,9 +37,12 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
     const uint first = triangles[number], second = triangles[sizes.triangles + number],
                third = triangles[2 * sizes.triangles + number];
     const float b1 = hit[VNDF_HIT_B1 * stride + i], b2 = hit[VNDF_HIT_B2 * stride + i];
-    const struct vndf_render_vector a = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices, first),
-                                    b = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices, second),
-                                    c = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices, third);
+    const struct vndf_render_vector a = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
+                                                              first),
+                                    b = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
+                                                              second),
+                                    c = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
+                                                              third);
     const struct vndf_render_vector wo =
         vndf_render_scaled(-1.0f, vndf_render_vector_at(path, VNDF_PATH_DX, stride, i));
     const struct vndf_render_vector ab = vndf_render_sum(b, -1.0f, a), ac = vndf_render_sum(c, -1.0f, a);
@@ -61,8 +64,8 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
 #endif
     // The tangent runs along the circles about the vertical.
     const int pole = VNDF_FMA(normal.x, normal.x, normal.z * normal.z) < 1e-12f;
-    const struct vndf_render_vector tangent = vndf_render_unit_vector(
-        vndf_render_vector_of(pole ? 1.0f : normal.z, 0.0f, pole ? 0.0f : -normal.x));
+    const struct vndf_render_vector tangent =
+        vndf_render_unit_vector(vndf_render_vector_of(pole ? 1.0f : normal.z, 0.0f, pole ? 0.0f : -normal.x));
     const struct vndf_render_vector wo_local = vndf_render_local(normal, tangent, wo),
                                     geometric_local = vndf_render_local(normal, tangent, geometric);
     // Rays begin beside the surface, by more than the rounding of its place and of the test for hits, which both go with the

@@ -16,7 +16,8 @@ VNDF_RENDER_KERNEL vndf_render_survive(VNDF_RENDER_IN(uint) material, VNDF_RENDE
                                     normal = vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
                                     tangent = vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i);
     const struct vndf_render_vector on = vndf_render_unit_vector(vndf_render_sum(
-        vndf_render_sum(vndf_render_scaled(wi.x, tangent), wi.y, vndf_render_cross(normal, tangent)), wi.z, normal));
+        vndf_render_sum(vndf_render_scaled(wi.x, tangent), wi.y, vndf_render_cross(normal, tangent)), wi.z,
+        normal));
     const float red = path[VNDF_PATH_RED * stride + i], green = path[VNDF_PATH_GREEN * stride + i],
                 blue = path[VNDF_PATH_BLUE * stride + i];
     const float luminance = VNDF_FMA(0.2126f, red, VNDF_FMA(0.7152f, green, 0.0722f * blue));

@@ -27,10 +27,10 @@ VNDF_RENDER_KERNEL vndf_render_shadow(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_I
     const float red = lights[VNDF_LIGHT_RED * stride + i], green = lights[VNDF_LIGHT_GREEN * stride + i],
                 blue = lights[VNDF_LIGHT_BLUE * stride + i];
     if (red == 0.0f && green == 0.0f && blue == 0.0f) return;
-    const struct vndf_render_ray ray = vndf_render_ray_of(
-        path[VNDF_PATH_X * stride + i], path[VNDF_PATH_Y * stride + i], path[VNDF_PATH_Z * stride + i],
-        lights[VNDF_LIGHT_DX * stride + i], lights[VNDF_LIGHT_DY * stride + i],
-        lights[VNDF_LIGHT_DZ * stride + i]);
+    const struct vndf_render_ray ray =
+        vndf_render_ray_of(path[VNDF_PATH_X * stride + i], path[VNDF_PATH_Y * stride + i],
+                           path[VNDF_PATH_Z * stride + i], lights[VNDF_LIGHT_DX * stride + i],
+                           lights[VNDF_LIGHT_DY * stride + i], lights[VNDF_LIGHT_DZ * stride + i]);
     if (vndf_render_trace(nodes, leaves, ray, 1).triangle != VNDF_MISS) return;
     light[slot[i]] += red;
     light[stride + slot[i]] += green;

@@ -113,8 +113,8 @@ VNDF_FN struct vndf_render_hit vndf_render_leaf(VNDF_RENDER_FROM(float) leaf, st
                  most = vndf_render_most8(vndf_render_most8(u, v), w);
     const float8 inverse = VNDF_RENDER_8(1.0f) / (determinant != zero ? determinant : VNDF_RENDER_8(1.0f));
     const float8 t = (u * az + v * bz + w * cz) * ray.shear_z * inverse;
-    const int8 met = ((least >= zero) | (most <= zero)) & (determinant != zero) & (t > zero) &
-                     (t <= VNDF_RENDER_8(hit.t));
+    const int8 met =
+        ((least >= zero) | (most <= zero)) & (determinant != zero) & (t > zero) & (t <= VNDF_RENDER_8(hit.t));
     if (!VNDF_RENDER_ANY(met)) return hit;
     int lanes[8];
     float ts[8], b1[8], b2[8];

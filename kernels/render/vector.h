@@ -16,8 +16,10 @@ VNDF_FN struct vndf_render_vector vndf_render_vector_of(float x, float y, float 
     return v;
 }
 // Planes k, k + 1 and k + 2 of item i.
-VNDF_FN struct vndf_render_vector vndf_render_vector_at(VNDF_RENDER_FROM(float) planes, uint k, uint stride, uint i) {
-    return vndf_render_vector_of(planes[k * stride + i], planes[(k + 1) * stride + i], planes[(k + 2) * stride + i]);
+VNDF_FN struct vndf_render_vector vndf_render_vector_at(VNDF_RENDER_FROM(float) planes, uint k, uint stride,
+                                                        uint i) {
+    return vndf_render_vector_of(planes[k * stride + i], planes[(k + 1) * stride + i],
+                                 planes[(k + 2) * stride + i]);
 }
 VNDF_FN float vndf_render_dot(struct vndf_render_vector a, struct vndf_render_vector b) {
     return VNDF_FMA(a.x, b.x, VNDF_FMA(a.y, b.y, a.z * b.z));
@@ -26,10 +28,12 @@ VNDF_FN struct vndf_render_vector vndf_render_scaled(float k, struct vndf_render
     return vndf_render_vector_of(k * a.x, k * a.y, k * a.z);
 }
 // a + k b.
-VNDF_FN struct vndf_render_vector vndf_render_sum(struct vndf_render_vector a, float k, struct vndf_render_vector b) {
+VNDF_FN struct vndf_render_vector vndf_render_sum(struct vndf_render_vector a, float k,
+                                                  struct vndf_render_vector b) {
     return vndf_render_vector_of(VNDF_FMA(k, b.x, a.x), VNDF_FMA(k, b.y, a.y), VNDF_FMA(k, b.z, a.z));
 }
-VNDF_FN struct vndf_render_vector vndf_render_cross(struct vndf_render_vector a, struct vndf_render_vector b) {
+VNDF_FN struct vndf_render_vector vndf_render_cross(struct vndf_render_vector a,
+                                                    struct vndf_render_vector b) {
     return vndf_render_vector_of(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 VNDF_FN struct vndf_render_vector vndf_render_unit_vector(struct vndf_render_vector v) {
@@ -45,9 +49,11 @@ VNDF_FN struct vndf_render_vector vndf_render_unit_after(float before, struct vn
 }
 
 // w in the frame of two unit vectors.
-VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector normal, struct vndf_render_vector tangent,
+VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector normal,
+                                                    struct vndf_render_vector tangent,
                                                     struct vndf_render_vector w) {
-    return vndf_render_vector_of(vndf_render_dot(w, tangent), vndf_render_dot(w, vndf_render_cross(normal, tangent)),
+    return vndf_render_vector_of(vndf_render_dot(w, tangent),
+                                 vndf_render_dot(w, vndf_render_cross(normal, tangent)),
                                  vndf_render_dot(w, normal));
 }
 

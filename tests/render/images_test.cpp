@@ -77,7 +77,8 @@ TEST_CASE("direct light has its closed form") {
     render::Scene shaded = floor_of(render::lambert({albedo, albedo, albedo}), 0.3);
     shaded.add_sphere({0, 3, 4.013f}, 1.5f, 128, render::lambert({0, 0, 0}));
     const double ball = 1.5 * 1.5 / 25 * 0.6;
-    CHECK(mean(rendered(shaded, 32, 32, 64 * effort()).image()) == Catch::Approx(albedo * (1 - ball)).epsilon(1e-3));
+    CHECK(mean(rendered(shaded, 32, 32, 64 * effort()).image()) ==
+          Catch::Approx(albedo * (1 - ball)).epsilon(1e-3));
 }
 
 TEST_CASE("every sampler draws the same image") {
@@ -99,7 +100,8 @@ TEST_CASE("every sampler draws the same image") {
             r.choices.random = "philox";
             r.settings.random = render::Random::philox;
             double sum = 0, square = 0;
-            const auto stages = render::device_stages(runtime::choose_device().device, runtime::Math::strict, r.switches());
+            const auto stages =
+                render::device_stages(runtime::choose_device().device, runtime::Math::strict, r.switches());
             for (int seed = 1; seed <= seeds; ++seed) {
                 r.settings.seed = static_cast<std::uint64_t>(seed);
                 const double value = mean(r.on(*stages));

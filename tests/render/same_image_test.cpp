@@ -92,8 +92,8 @@ TEST_CASE("another seed is another image, the same seed the same") {
 TEST_CASE("the number of threads changes no bit, and both kinds of file hold the image") {
     const Folder folder;
     const std::string render = "\"$clvndf\" --quiet render --size 60x25 --spp 2 ";
-    CHECK(shell(folder, "POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 " + render + "-o one.png && " + render +
-                            "-o two.png && cmp one.png two.png") == 0);
+    CHECK(shell(folder, "POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 " + render + "-o one.png && " +
+                            render + "-o two.png && cmp one.png two.png") == 0);
     CHECK(folder.read("one.png").starts_with("\x89PNG"));
     CHECK(shell(folder, render + "-o a.exr && " + render + "--seed 2 -o b.exr && ! cmp -s a.exr b.exr") == 0);
     const std::string exr = folder.read("a.exr");

@@ -81,7 +81,8 @@ inline double ggx_albedo(double alpha, double theta) {
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
             const double u = (i + 0.5) / steps, phi = 2 * std::numbers::pi * (j + 0.5) / steps;
-            const double tan2 = alpha * alpha * u / (1 - u), mz = 1 / std::sqrt(1 + tan2), mr = std::sqrt(1 - mz * mz);
+            const double tan2 = alpha * alpha * u / (1 - u), mz = 1 / std::sqrt(1 + tan2),
+                         mr = std::sqrt(1 - mz * mz);
             const double om = ox * mr * std::cos(phi) + oz * mz, iz = 2 * om * mz - oz;
             if (om <= 0 || iz <= 0) continue;
             sum += om / (oz * mz) / (1 + lambda(oz) + lambda(iz));

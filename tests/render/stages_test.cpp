@@ -23,9 +23,10 @@ struct Remarks {
 
 std::map<std::string, Remarks> remarks(const std::string& options) {
     const Folder folder;
-    CHECK(shell(folder, "mkdir cache; POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR=$PWD/cache \"$clvndf\" --quiet render "
-                        "--size 16x8 --spp 1 -o a.png " +
-                            options + " >out 2>&1") == 0);
+    CHECK(shell(folder,
+                "mkdir cache; POCL_VECTORIZER_REMARKS=1 POCL_CACHE_DIR=$PWD/cache \"$clvndf\" --quiet render "
+                "--size 16x8 --spp 1 -o a.png " +
+                    options + " >out 2>&1") == 0);
     static const std::regex said(
         R"(inlined into '(?:_pocl_kernel_)?vndf_render_([a-z]+)|(vectorized loop \(vectorization width)|(loop not vectorized: ))");
     std::map<std::string, Remarks> all;
@@ -45,14 +46,15 @@ std::map<std::string, Remarks> remarks(const std::string& options) {
 TEST_CASE("every stage of the renderer is vectorised on PoCL, but those that cannot be") {
     if (runtime::choose_device().device.platform != "Portable Computing Language")
         VNDF_SKIP("the vectoriser's remarks are PoCL's, and the chosen device is another's");
-    for (const std::string options :
-         {"", "--effects all", "--effects all --random philox", "--orbs diffuse", "--orbs anisotropy", "--orbs metals"}) {
+    for (const std::string options : {"", "--effects all", "--effects all --random philox", "--orbs diffuse",
+                                      "--orbs anisotropy", "--orbs metals"}) {
         CAPTURE(options);
         const auto all = remarks(options);
         CHECK(all.size() >= 12);
         for (const auto& [stage, said] : all) {
             CAPTURE(stage, said.vectorised, said.failures);
-            const bool exempt = serial.contains(stage) || (options == "--orbs metals" && packed.contains(stage));
+            const bool exempt =
+                serial.contains(stage) || (options == "--orbs metals" && packed.contains(stage));
             CHECK(((said.vectorised > 0 && said.failures == 0) != exempt));
         }
     }

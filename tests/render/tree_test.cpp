@@ -79,10 +79,12 @@ TEST_CASE("no ray slips between the triangles of a closed mesh") {
     for (int i = 0; i < 20000; ++i) {
         // From inside, towards corners, along edges, and anywhere.
         const auto& triangle = scene.triangles[random() % scene.triangles.size()];
-        const render::Vec &a = scene.vertices[triangle.corners[0]].place, &b = scene.vertices[triangle.corners[1]].place;
+        const render::Vec &a = scene.vertices[triangle.corners[0]].place,
+                          &b = scene.vertices[triangle.corners[1]].place;
         const float part = i % 3 == 0 ? 0.0f : static_cast<float>(random()) / 4294967296.0f;
         float d[3];
-        for (int axis = 0; axis < 3; ++axis) d[axis] = a[axis] + part * (b[axis] - a[axis]) - 0.05f * (axis + 1);
+        for (int axis = 0; axis < 3; ++axis)
+            d[axis] = a[axis] + part * (b[axis] - a[axis]) - 0.05f * (axis + 1);
         const vndf_render_ray ray = vndf_render_ray_of(0.05f, 0.1f, 0.15f, d[0], d[1], d[2]);
         missed += vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0).triangle == VNDF_MISS;
     }
