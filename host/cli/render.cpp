@@ -78,8 +78,8 @@ bool worth_a_look(std::uint64_t samples, std::uint64_t looked_at) {
     return samples >= 16 && samples >= looked_at + looked_at / 4;
 }
 
-void trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, const Common& common) {
-    const Interrupt interrupt;
+void trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, const Interrupt& interrupt,
+           const Common& common) {
     const Progress progress(common.quiet);
     const Goal goal(r, pixels);
     std::uint64_t looked_at = 0;
@@ -131,12 +131,13 @@ void run(const Render& r, Common& common) {
         return target.choose(common);
     }();
     OutputFile file(r.output);
+    const Interrupt interrupt;
     const render::Tree tree = render::build_tree(scene);
     if (r.explain)
         put(render::explanation({device, math_named(r.math), scene, tree, effects, choices_of(r), settings}));
     const auto stages = render::device_stages(device, math_named(r.math), switches);
     render::Wavefront wavefront(*stages, scene, tree, settings);
-    trace(r, wavefront, std::uint64_t{settings.width} * settings.height, common);
+    trace(r, wavefront, std::uint64_t{settings.width} * settings.height, interrupt, common);
 
     const render::Image image = wavefront.image();
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -101,3 +101,17 @@ TEST_CASE("the number of threads changes no bit, and both kinds of file hold the
     for (const char* word : {"orbs of roughness", "samples per pixel", "VNDF_CONDUCTOR=1"})
         CHECK(exr.find(word) != exr.npos);
 }
+
+TEST_CASE("Ctrl-C writes what is there") {
+    const Folder folder;
+    // Once the file is there by another name, it is at work.
+    CHECK(
+        shell(
+            folder,
+            "env --default-signal=INT \"$clvndf\" render --size 60x25 --time 10000 -o a.png 2>err & run=$!\n"
+            "n=0; until ls -A | grep -q 'a\\.png' || [ $n = 400 ]; do sleep .05; n=$((n+1)); done\n"
+            "sleep .2; kill -INT $run; wait $run") == 0);
+    CHECK(folder.read("a.png").starts_with("\x89PNG"));
+    CHECK(folder.read("err").find("interrupted; a.png holds what is there") != std::string::npos);
+    CHECK(folder.files() == 2);
+}
