@@ -79,6 +79,11 @@ TEST_CASE("every command runs to its end with every option") {
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",
         "emit vndf_bsdf_sample --effects lambert,fresnel=none --output material.h",
+        "render --help",
+        "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking separable --random philox "
+        "--math builtin --orbs anisotropy --effects all --device \"$device\"",
+        "render --output a.exr --size 8x4 --time 0.01 --explain",
+        "render --output b.png --size 8x4 --target-error 0.5",
         "policies --help",
         "policies --only vndf_reflect --quick --flags cycles",
         "policies --only vndf_reflect --quick --device \"$device\" --real float --json policies.json"};

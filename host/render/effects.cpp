@@ -1,0 +1,155 @@
+#include "render/effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "error.h"
+
+namespace vndf::render {
+namespace {
+
+std::string in_case(std::string text, int (*convert)(int)) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [=](unsigned char c) { return static_cast<char>(convert(c)); });
+    return text;
+}
+
+// "material 0 and 4 others" for the materials that `calls`; empty if there is none.
+std::string materials_that(const Scene& scene, const std::function<bool(const Material&)>& calls) {
+    std::size_t count = 0, first = 0;
+    for (std::size_t i = scene.materials.size(); i-- > 0;) {
+        if (!calls(scene.materials[i])) continue;
+        ++count;
+        first = i;
+    }
+    if (count == 0) return {};
+    return count == 1 ? fmt::format("material {}", first)
+                      : fmt::format("material {} and {} more", first, count - 1);
+}
+
+// Whether the corners' normals are the face's, as the kernel forms it (kernels/render/surface.h): then all products are exact.
+bool flat(const Scene& scene, const Triangle& triangle) {
+    const Vertex& a = scene.vertices[triangle.corners[0]];
+    const Vertex& b = scene.vertices[triangle.corners[1]];
+    const Vertex& c = scene.vertices[triangle.corners[2]];
+    if (a.normal != b.normal || a.normal != c.normal) return false;
+    // One axis alone: others are not unit vectors to the bit.
+    const auto ones =
+        std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
+    const auto zeros = std::count(a.normal.begin(), a.normal.end(), 0.0f);
+    if (ones != 1 || zeros != 2) return false;
+    for (int axis = 0; axis < 3; ++axis)
+        if (a.normal[axis] != 0 && (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]))
+            return false;
+    return true;
+}
+
+std::string bent_triangles(const Scene& scene) {
+    const auto bent = std::count_if(scene.triangles.begin(), scene.triangles.end(),
+                                    [&](const Triangle& t) { return !flat(scene, t); });
+    return bent == 0 ? std::string() : fmt::format("{} triangles with normals of their own", bent);
+}
+
+// What calls for each effect. One that is not here is always called for.
+const std::map<std::string, std::function<std::string(const Scene&)>>& callers() {
+    static const std::map<std::string, std::function<std::string(const Scene&)>> all{
+        {"conductor",
+         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
+        {"lambert",
+         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal < 1; }); }},
+        {"anisotropic",
+         [](const Scene& s) {
+             return materials_that(s,
+                                   [](const Material& m) { return m.metal > 0 && m.alpha_x != m.alpha_y; });
+         }},
+        {"tint",
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) { return m.tint != Vec{1, 1, 1}; });
+         }},
+        {"back_facing",
+         [](const Scene& s) {
+             return s.open ? std::string("surfaces that may be seen from behind") : std::string();
+         }},
+        {"shading_normal", bent_triangles},
+        {"terminator", bent_triangles}};
+    return all;
+}
+
+std::vector<Effect> called_effects(const Scene& scene) {
+    std::vector<Effect> effects;
+    const auto add = [&](const char* name) {
+        Effect effect{in_case(name, std::tolower), "every scene", true};
+        if (const auto caller = callers().find(effect.name); caller != callers().end())
+            effect.called_by = caller->second(scene);
+        effect.on = !effect.called_by.empty();
+        effects.push_back(effect);
+    };
+#define VNDF_EFFECT(name, called_for, marks) add(#name);
+#include "kernels/effects.def"
+    return effects;
+}
+
+std::vector<std::string> split(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+        if (c == ',')
+            words.emplace_back();
+        else
+            words.back() += c;
+    }
+    return words;
+}
+
+}  // namespace
+
+std::string Effect::macro() const {
+    return "VNDF_" + in_case(name, std::toupper);
+}
+
+const std::vector<std::string>& samplers() {
+    static const std::vector<std::string> all{"bounded", "plain", "conic", "ndf", "cosine"};
+    return all;
+}
+
+std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
+    std::vector<Effect> effects = called_effects(scene);
+    if (asked == "auto") return effects;
+    for (Effect& effect : effects) effect.on = asked == "all";
+    if (asked == "all") return effects;
+    std::vector<std::string> names;
+    for (const Effect& effect : effects) names.push_back(effect.name);
+    for (const std::string& word : split(asked)) {
+        const auto found = std::find(names.begin(), names.end(), word);
+        if (found == names.end())
+            throw InputError(fmt::format("--effects '{}': '{}' is none; auto, all or some of {} are allowed",
+                                         asked, word, fmt::join(names, ",")));
+        effects[found - names.begin()].on = true;
+    }
+    const auto on = [&](std::string_view name) {
+        return std::any_of(effects.begin(), effects.end(),
+                           [&](const Effect& e) { return e.name == name && e.on; });
+    };
+    if (!on("conductor") && !on("lambert"))
+        throw InputError(fmt::format(
+            "--effects '{}': nothing is left of the materials without conductor and lambert", asked));
+    return effects;
+}
+
+Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
+    const bool compared = choices.sampler == "ndf" || choices.sampler == "cosine";
+    if (choices.ndf == "beckmann" && !compared && choices.sampler != "plain")
+        throw InputError(
+            fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
+    std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
+                                   scene.fresnel, choices.masking);
+    text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
+                     : " -DVNDF_SAMPLING=" + choices.sampler;
+    for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", effect.macro(), effect.on);
+    return {"-DVNDF_RANDOM=" + choices.random, text};
+}
+
+}  // namespace vndf::render

@@ -1,0 +1,36 @@
+// Which effects of kernels/effects.def a scene calls for, and the program with those alone.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/scene.h"
+#include "render/stages.h"
+
+namespace vndf::render {
+
+struct Effect {
+    std::string name;       // "anisotropic"
+    std::string called_by;  // what in the scene calls for it; empty: nothing does
+    bool on = true;
+
+    std::string macro() const;  // "VNDF_ANISOTROPIC"
+};
+
+// Of the models that results depend on, one each.
+struct Choices {
+    std::string ndf = "ggx", sampler = "bounded", masking = "correlated", random = "sobol";
+};
+
+// How directions are drawn: the samplers of kernels/vndf/bsdf_conductor.h, and two to compare with (kernels/render/material.h).
+const std::vector<std::string>& samplers();
+
+// Each effect, on or off. asked: "auto", what the scene calls for; "all"; or names with commas between them, "none" for none.
+// Throws InputError at other names, or if nothing is left of the materials.
+std::vector<Effect> effects_for(const Scene& scene, std::string_view asked);
+
+// Throws InputError if the choices contradict each other.
+Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices);
+
+}  // namespace vndf::render

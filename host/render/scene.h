@@ -1,0 +1,77 @@
+// A scene as the renderer takes it: triangles, materials, sky and camera. The built-in ones are made here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/render/queues.h"
+
+namespace vndf::render {
+
+using Vec = std::array<float, 3>;
+
+// As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, Lambert's reflection, or a mix of both.
+struct Material {
+    float alpha_x = 1, alpha_y = 1;
+    float metal = 1;  // the conductor's share
+    Vec first{1, 1, 1},
+        second{1, 1, 1};  // of its reflectance: f0 and f90, eta and k, or f0 and the tint at 82 degrees
+    Vec tint{1, 1, 1}, albedo{};
+
+    bool operator==(const Material&) const = default;
+};
+Material conductor(Vec f0, float alpha_x, float alpha_y);
+Material lambert(Vec albedo);
+
+struct Vertex {
+    Vec place, normal;
+};
+
+struct Triangle {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t material = 0;
+};
+
+struct Camera {
+    Vec eye{0, 0, 5}, target{};
+    float width = 1;  // of the film at distance 1
+};
+
+struct Sky {
+    Vec zenith{}, horizon{}, ground{}, sun{};
+    Vec to_sun{0, 1, 0};
+    float sun_radius = 0.02f;  // radians
+    float sun_share = 0.5f;    // of the samples of light; 0 where there is no sun
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<Material> materials;
+    std::string fresnel = "schlick";  // the model of every conductor, a value of VNDF_FRESNEL
+    bool open = false;                // surfaces may be seen from behind
+    Sky sky;
+    Camera camera;
+
+    // Triangles of a sphere with smooth normals: 2 rows (rows - 1) * 2 of them, poles along y.
+    void add_sphere(Vec centre, float radius, unsigned rows, const Material& material);
+    // The square of the floor y = 0 between two corners.
+    void add_square(float x0, float z0, float x1, float z1, std::uint32_t material);
+    std::uint32_t add_material(const Material& material);
+};
+
+Sky constant_sky(float radiance);
+
+// Five orbs on a floor under a sky with a sun; `kind` is one of orb_kinds().
+Scene orbs(std::string_view kind);
+const std::vector<std::string>& orb_kinds();
+
+// The camera and the sky as the kernels take them.
+vndf_render_view view_of(const Camera& camera, unsigned width, unsigned height);
+vndf_render_sky sky_of(const Sky& sky);
+
+}  // namespace vndf::render

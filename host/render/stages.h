@@ -1,0 +1,65 @@
+// Where the stages of kernels/render run: on a device, or as C++.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/program.h"
+
+namespace vndf::render {
+
+class Stages {
+  public:
+    using Buffer = std::size_t;
+
+    // What a stage is given, in its order: a buffer, or a value of the type that it takes.
+    struct Argument {
+        Argument(Buffer b) : buffer(b) {}
+        Argument(const std::uint32_t& value) : value(&value), size(sizeof value) {}
+        Argument(const std::int32_t& value) : value(&value), size(sizeof value) {}
+        Argument(const float& value) : value(&value), size(sizeof value) {}
+        template <class Struct>
+        Argument(const Struct* value) : value(value), size(sizeof *value) {}
+
+        Buffer buffer = 0;
+        const void* value = nullptr;
+        std::size_t size = 0;
+    };
+    using Arguments = std::initializer_list<Argument>;
+
+    virtual ~Stages() = default;
+
+    // Filled with zeros.
+    virtual Buffer buffer(std::size_t bytes) = 0;
+    virtual void write(Buffer to, const void* from, std::size_t bytes) = 0;
+    virtual void read(Buffer from, void* to, std::size_t bytes, std::size_t offset = 0) = 0;
+    // Runs vndf_render_<stage> on at least `items` items, in whole groups.
+    virtual void launch(const std::string& stage, std::size_t items, Arguments arguments) = 0;
+    virtual std::string describe() const = 0;
+    // Spent in a stage so far, where stages are timed.
+    virtual double seconds(const std::string&) const { return 0; }
+
+    template <class T>
+    Buffer upload(const std::vector<T>& values) {
+        const Buffer made = buffer(values.size() * sizeof(T));
+        if (!values.empty()) write(made, values.data(), values.size() * sizeof(T));
+        return made;
+    }
+};
+
+// "-DVNDF_..." for the compiler: for all stages, and for those that know materials beside.
+struct Switches {
+    std::string paths, materials;
+};
+
+// On a device. timed: each stage is waited for, and its time kept.
+std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math,
+                                      const Switches& switches, bool timed = false);
+
+// The same text as C++, with every effect; strict, Sobol.
+std::unique_ptr<Stages> cpp_stages();
+
+}  // namespace vndf::render

@@ -1,0 +1,167 @@
+#include "render/wavefront.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vndf::render {
+namespace {
+
+constexpr unsigned roulette_from = 3;  // bounces that every path lives
+
+constexpr std::size_t whole_chunks(std::size_t items) {
+    return (items + VNDF_CHUNK - 1) / VNDF_CHUNK * VNDF_CHUNK;
+}
+
+// Plane after plane: row i's plane k at k * rows + i.
+template <class T, class Rows, class Fill>
+std::vector<T> planes_of(std::size_t planes, const Rows& rows, Fill fill) {
+    std::vector<T> table;
+    for (std::size_t k = 0; k < planes; ++k)
+        for (const auto& row : rows) table.push_back(fill(row)[k]);
+    return table;
+}
+
+std::vector<float> vertex_table(const Scene& scene) {
+    return planes_of<float>(VNDF_VERTEX_PLANES, scene.vertices, [](const Vertex& v) {
+        return std::array{v.place[0], v.place[1], v.place[2], v.normal[0], v.normal[1], v.normal[2]};
+    });
+}
+
+std::vector<std::uint32_t> triangle_table(const Scene& scene) {
+    return planes_of<std::uint32_t>(VNDF_TRIANGLE_PLANES, scene.triangles, [](const Triangle& t) {
+        return std::array{t.corners[0], t.corners[1], t.corners[2], t.material};
+    });
+}
+
+std::vector<float> material_table(const Scene& scene) {
+    return planes_of<float>(VNDF_MATERIAL_PLANES, scene.materials, [](const Material& m) {
+        std::vector<float> row{m.alpha_x, m.alpha_y, m.metal};
+        for (const Vec& rgb : {m.first, m.second, m.tint, m.albedo})
+            row.insert(row.end(), rgb.begin(), rgb.end());
+        return row;
+    });
+}
+
+vndf_render_sizes sizes_of(const Scene& scene) {
+    const auto size = [](const auto& rows) { return static_cast<std::uint32_t>(rows.size()); };
+    return {size(scene.vertices), size(scene.triangles), size(scene.materials), 1.0f};
+}
+
+}  // namespace
+
+Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const Settings& settings)
+    : stages_(stages),
+      settings_(settings),
+      pixels_(settings.width * settings.height),
+      queue_(static_cast<std::uint32_t>(whole_chunks(std::min<std::size_t>(settings.queue, pixels_)))),
+      // Behind the queue and behind the film, places for what nobody reads.
+      stride_(queue_ + runtime::group_size),
+      film_stride_(pixels_ + 1),
+      view_(view_of(scene.camera, settings.width, settings.height)),
+      sky_(sky_of(scene.sky)),
+      sizes_(sizes_of(scene)),
+      words_(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)),
+      nodes_(stages.upload(tree.nodes)),
+      leaves_(stages.upload(tree.leaves)),
+      vertices_(stages.upload(vertex_table(scene))),
+      triangles_(stages.upload(triangle_table(scene))),
+      materials_(stages.upload(material_table(scene))) {
+    const auto planes = [&](std::size_t count) { return stages_.buffer(count * stride_ * sizeof(float)); };
+    for (int side = 0; side < 2; ++side) {
+        path_[side] = planes(VNDF_PATH_PLANES);
+        slot_[side] = planes(1);
+    }
+    hit_ = planes(VNDF_HIT_PLANES);
+    triangle_ = planes(1);
+    lights_ = planes(VNDF_LIGHT_PLANES);
+    surface_ = planes(VNDF_SURFACE_PLANES);
+    material_ = planes(1);
+    alive_ = planes(1);
+    rank_ = planes(1);
+    offset_ = planes(1);
+    light_ = planes(3);
+    film_ = stages_.buffer(std::size_t{VNDF_FILM_PLANES} * film_stride_ * sizeof(float));
+    word_buffer_ = stages_.upload(
+        Words(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces))
+            .next());
+}
+
+bool Wavefront::add_sample(const std::function<bool()>& stop) {
+    const std::vector<std::uint32_t> words = words_.next();
+    stages_.write(word_buffer_, words.data(), words.size() * sizeof(std::uint32_t));
+    for (std::uint32_t first = 0; first < pixels_; first += queue_) {
+        const std::uint32_t count = std::min(queue_, pixels_ - first);
+        trace(first, count);
+        const float odd = samples_ % 2 == 1 ? 1.0f : 0.0f;
+        stages_.launch("accumulate", count, {light_, first, count, stride_, film_stride_, odd, film_});
+        ahead_ = first + count;
+        if (ahead_ < pixels_ && stop()) return false;
+    }
+    ahead_ = 0;
+    ++samples_;
+    return !stop();
+}
+
+void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
+    int side = 0;
+    stages_.launch("generate", count, {&view_, word_buffer_, first, stride_, path_[0], slot_[0], light_});
+    for (unsigned bounce = 0; count != 0; ++bounce) {
+        const auto path = path_[side], slot = slot_[side];
+        stages_.launch("traverse", count, {nodes_, leaves_, path, count, stride_, hit_, triangle_});
+        stages_.launch("leave", count, {&sky_, path, triangle_, slot, count, stride_, light_});
+        if (bounce == settings_.max_bounces) return;
+        const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce,
+                            bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce,
+                            chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
+        const std::int32_t roulette = bounce >= roulette_from;
+        const std::size_t whole = whole_chunks(count);
+        stages_.launch(
+            "surface", whole,
+            {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
+        stages_.launch("lights", whole,
+                       {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
+        stages_.launch("connect", whole, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
+        stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
+        stages_.launch(
+            "scatter", whole,
+            {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
+        stages_.launch(
+            "survive", whole,
+            {material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path, alive_});
+        stages_.launch("rank", chunks, {alive_, chunks, rank_, offset_});
+        stages_.launch("offsets", 1, {chunks, offset_});
+        side = 1 - side;
+        stages_.launch("move", whole,
+                       {path, slot, alive_, rank_, offset_, stride_, path_[side], slot_[side]});
+        stages_.read(offset_, &count, sizeof count, chunks * sizeof count);
+    }
+}
+
+Image Wavefront::image() {
+    std::vector<float> film(std::size_t{VNDF_FILM_PLANES} * film_stride_);
+    stages_.read(film_, film.data(), film.size() * sizeof(float));
+    const auto plane = [&](std::size_t k, std::size_t pixel) { return film[k * film_stride_ + pixel]; };
+    Image image{settings_.width, settings_.height, std::vector<float>(std::size_t{3} * pixels_)};
+    image.samples = static_cast<double>(pixel_samples()) / pixels_;
+    double luminance = 0, square = 0;
+    for (std::uint32_t pixel = 0; pixel < pixels_; ++pixel) {
+        const std::uint64_t taken = samples_ + (pixel < ahead_);
+        const double bad = plane(VNDF_FILM_BAD, pixel),
+                     good = std::max(1.0, static_cast<double>(taken) - bad);
+        image.bad_pixels += bad > 0;
+        image.bad_samples += static_cast<std::uint64_t>(bad);
+        for (int channel = 0; channel < 3; ++channel)
+            image.pixels[3 * pixel + channel] =
+                static_cast<float>(plane(VNDF_FILM_RED + channel, pixel) / good);
+        const float* const rgb = &image.pixels[3 * pixel];
+        const double mean = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+        luminance += mean;
+        // Two halves differ by twice the error of their mean.
+        const double odd = plane(VNDF_FILM_ODD, pixel) / std::max<std::uint64_t>(1, taken / 2);
+        square += (odd - mean) * (odd - mean);
+    }
+    image.error = samples_ < 2 || luminance == 0 ? 1 : std::sqrt(square / pixels_) / (luminance / pixels_);
+    return image;
+}
+
+}  // namespace vndf::render

@@ -1,0 +1,62 @@
+// The path tracer: one path for each pixel in flight, its stages over queues (kernels/render), samples added in order.
+//
+// Neither the size of the queues nor the number of threads changes a bit of the result: a path depends on its pixel and sample
+// alone, and each pixel's light is added by one path at a time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "render/scene.h"
+#include "render/stages.h"
+#include "render/tree.h"
+#include "render/words.h"
+
+namespace vndf::render {
+
+struct Settings {
+    unsigned width = 960, height = 340;
+    unsigned max_bounces = 6;  // surfaces that a path may visit
+    std::uint64_t seed = 1;
+    Random random = Random::sobol;
+    std::size_t queue = std::size_t{1} << 17;  // paths in flight
+};
+
+struct Image {
+    unsigned width = 0, height = 0;
+    std::vector<float> pixels;  // red, green, blue of each, row by row from the top: means over the samples
+    double samples = 0;         // of each pixel
+    double error = 0;           // estimated, root mean square over the pixels' mean luminance
+    std::uint64_t bad_pixels = 0, bad_samples = 0;  // that had no finite number; left out of the means
+};
+
+class Wavefront {
+  public:
+    Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const Settings& settings);
+
+    // Adds a sample to every pixel. stop(), asked after each queueful, may end it before; false if it did.
+    bool add_sample(const std::function<bool()>& stop = [] { return false; });
+
+    Image image();
+    std::uint64_t samples() const { return samples_; }
+    // Samples of single pixels so far.
+    std::uint64_t pixel_samples() const { return samples_ * pixels_ + ahead_; }
+
+  private:
+    void trace(std::uint32_t first, std::uint32_t count);
+
+    Stages& stages_;
+    Settings settings_;
+    std::uint32_t pixels_, queue_, stride_, film_stride_;
+    vndf_render_view view_;
+    vndf_render_sky sky_;
+    vndf_render_sizes sizes_;
+    Words words_;
+    std::uint64_t samples_ = 0;
+    std::uint32_t ahead_ = 0;  // pixels that have one sample more
+    Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, word_buffer_;
+    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, surface_, material_, alive_, rank_, offset_,
+        light_, film_;
+};
+
+}  // namespace vndf::render

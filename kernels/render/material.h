@@ -1,0 +1,194 @@
+// What a surface does with light: the only file of the renderer that knows vndf_bsdf, its effects and choices.
+//
+// VNDF_DRAW says how directions are drawn: bsdf (default), by the material's own sampler; or, to compare with, ndf: mirrored
+// about a normal of the distribution, seen or not, and cosine: by the cosine law whatever the material.
+#ifndef VNDF_RENDER_MATERIAL_H
+#define VNDF_RENDER_MATERIAL_H
+
+#include "../vndf/bsdf.h"
+#include "language.h"
+#include "queues.h"
+
+#ifndef VNDF_DRAW
+#define VNDF_DRAW bsdf
+#endif
+#define VNDF_DRAW_IS_bsdf 1
+#define VNDF_DRAW_IS_ndf 2
+#define VNDF_DRAW_IS_cosine 3
+#if VNDF_CAT(VNDF_DRAW_IS_, VNDF_DRAW) >= 1
+#else
+#error "clvndf: unknown VNDF_DRAW; bsdf, ndf and cosine are allowed"
+#endif
+#if VNDF_CHOSEN(VNDF_DRAW, ndf) && VNDF_CONDUCTOR
+#include "../vndf/beckmann_walter2007.h"
+#include "../vndf/ggx_walter2007.h"
+#endif
+
+VNDF_RENDER_UNCONTRACTED
+
+// BSDF times cos(theta_i) over the density of a sample, and that density.
+struct vndf_render_value {
+    struct vndf_rgb weight;
+    float pdf;
+};
+struct vndf_render_direction {
+    float x, y, z;
+    struct vndf_render_value value;
+};
+
+// A row of the table of materials. one: 1.0f, a number that the compiler does not know.
+struct vndf_render_row {
+    uint count, number;
+    float one;
+};
+
+// Three channels. LLVM would pack neighbours of which the same is computed, and PoCL then not vectorise across work-items: for
+// the compiler each is something else.
+VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
+                                           uint plane) {
+    return vndf_impl_rgb(materials[plane * row.count + row.number],
+                         row.one * materials[(plane + 1) * row.count + row.number],
+                         row.one * (row.one * materials[(plane + 2) * row.count + row.number]));
+}
+
+// A material of the table, at a point with this geometric normal in its frame.
+VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
+                                             float ng_x, float ng_y, float ng_z) {
+    struct vndf_bsdf b;
+#if VNDF_CONDUCTOR
+    b.alpha_x = materials[VNDF_MATERIAL_ALPHA_X * row.count + row.number];
+#if VNDF_ANISOTROPIC
+    b.alpha_y = materials[VNDF_MATERIAL_ALPHA_Y * row.count + row.number];
+#endif
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
+    b.eta = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_FIRST);
+    b.k = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_SECOND);
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
+    b.f0 = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_FIRST);
+    b.f90 = materials[VNDF_MATERIAL_SECOND * row.count + row.number];
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
+    b.f0 = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_FIRST);
+    b.f82 = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_SECOND);
+#endif
+#if VNDF_TINT
+    b.tint = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_TINT);
+#endif
+#endif
+#if VNDF_LAMBERT
+    b.albedo = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_ALBEDO);
+#endif
+#if VNDF_CONDUCTOR && VNDF_LAMBERT
+    b.metal = materials[VNDF_MATERIAL_METAL * row.count + row.number];
+#endif
+#if VNDF_SHADING_NORMAL
+    b.ng_x = ng_x;
+    b.ng_y = ng_y;
+    b.ng_z = ng_z;
+#else
+    (void)ng_x;
+    (void)ng_y;
+    (void)ng_z;
+#endif
+    return b;
+}
+
+// f / pdf.
+VNDF_FN struct vndf_rgb vndf_render_over(struct vndf_rgb f, float pdf) {
+    return vndf_impl_rgb_scaled(f, 1.0f / vndf_impl_max(pdf, 1e-30f));
+}
+
+#if VNDF_CHOSEN(VNDF_DRAW, bsdf)
+
+VNDF_FN struct vndf_render_value vndf_render_evaluate(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b) {
+    const struct vndf_bsdf_value known = vndf_bsdf_eval_pdf(wo, wi, b);
+    struct vndf_render_value value;
+    value.weight = vndf_render_over(known.f, known.pdf);
+    value.pdf = known.pdf;
+    return value;
+}
+
+VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u,
+                                                      float u_lobe) {
+    const struct vndf_bsdf_direction drawn = vndf_bsdf_sample(wo, b, u, u_lobe);
+    struct vndf_render_direction d;
+    d.x = drawn.wi_x;
+    d.y = drawn.wi_y;
+    d.z = drawn.wi_z;
+    d.value.weight = drawn.weight;
+    d.value.pdf = drawn.pdf;
+    return d;
+}
+
+#else
+
+// The share of the samples that are normals of the distribution.
+VNDF_FN float vndf_render_mirrored_share(struct vndf_bsdf b) {
+#if !VNDF_CONDUCTOR || VNDF_CHOSEN(VNDF_DRAW, cosine)
+    (void)b;
+    return 0.0f;
+#elif VNDF_LAMBERT
+    return b.metal;
+#else
+    (void)b;
+    return 1.0f;
+#endif
+}
+
+#if VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_DRAW, ndf)
+VNDF_FN float vndf_render_mirrored_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b) {
+    const float x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
+    const float scale = 1.0f / VNDF_SQRT(vndf_impl_max(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), 1e-30f));
+    const VNDF_REAL3 wm = VNDF_MAKE3(x * scale, y * scale, z * scale);
+#if VNDF_CHOSEN(VNDF_NDF, beckmann)
+    const float pdf = vndf_beckmann_pdf_wm_walter2007(wm, vndf_impl_bsdf_alpha(b));
+#else
+    const float pdf = vndf_ggx_pdf_wm_walter2007(wm, vndf_impl_bsdf_alpha(b));
+#endif
+    return vndf_impl_bounded_product(vndf_jacobian_reflect(wo, wm), pdf);
+}
+#endif
+
+VNDF_FN float vndf_render_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b) {
+    const float share = vndf_render_mirrored_share(b), cosine = (1.0f - share) * vndf_lambert_pdf_wi(wi);
+#if VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_DRAW, ndf)
+    return VNDF_FMA(share, vndf_render_mirrored_pdf(wo, wi, b), cosine);
+#else
+    (void)wo;
+    return cosine;
+#endif
+}
+
+VNDF_FN struct vndf_render_value vndf_render_evaluate(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b) {
+    struct vndf_render_value value;
+    value.pdf = vndf_render_pdf(wo, wi, b);
+    value.weight = vndf_render_over(vndf_bsdf_eval(wo, wi, b), value.pdf);
+    return value;
+}
+
+VNDF_FN struct vndf_render_direction vndf_render_draw(VNDF_REAL3 wo, struct vndf_bsdf b, VNDF_REAL2 u,
+                                                      float u_lobe) {
+    const VNDF_REAL3 even = vndf_lambert_sample_wi(u);
+    const int mirrored = u_lobe < vndf_render_mirrored_share(b);
+    struct vndf_render_direction d;
+    VNDF_REAL3 wi = even;
+#if VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_DRAW, ndf)
+#if VNDF_CHOSEN(VNDF_NDF, beckmann)
+    const VNDF_REAL3 wm = vndf_beckmann_sample_wm_walter2007(vndf_impl_bsdf_alpha(b), u);
+#else
+    const VNDF_REAL3 wm = vndf_ggx_sample_wm_walter2007(vndf_impl_bsdf_alpha(b), u);
+#endif
+    const VNDF_REAL3 turned = vndf_reflect(wo, wm);
+    wi = VNDF_MAKE3(mirrored ? turned.x : even.x, mirrored ? turned.y : even.y, mirrored ? turned.z : even.z);
+#else
+    (void)mirrored;
+#endif
+    d.x = wi.x;
+    d.y = wi.y;
+    d.z = wi.z;
+    d.value = vndf_render_evaluate(wo, wi, b);
+    return d;
+}
+
+#endif
+
+#endif

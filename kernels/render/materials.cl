@@ -1,0 +1,3 @@
+// The stages that know materials: a program of their own, compiled for the effects that a scene calls for.
+#include "surface.h"
+#include "shade.h"

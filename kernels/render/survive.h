@@ -1,0 +1,36 @@
+// Stage: a path that has turned goes on in the world, or ends. Those that carry little end early, the more often the less they
+// carry, and the others carry more for it.
+#ifndef VNDF_RENDER_SURVIVE_H
+#define VNDF_RENDER_SURVIVE_H
+
+#include "random.h"
+#include "vector.h"
+
+VNDF_RENDER_KERNEL vndf_render_survive(VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) surface,
+                                       VNDF_RENDER_IN(uint) words, const uint quad, VNDF_RENDER_IN(uint) slot,
+                                       const uint first, const uint stride, const int roulette,
+                                       VNDF_RENDER_OUT(float) path, VNDF_RENDER_OUT(uint) alive) {
+    const uint i = VNDF_RENDER_ITEM;
+    const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
+    const struct vndf_render_vector wi = vndf_render_vector_at(path, VNDF_PATH_DX, stride, i),
+                                    normal = vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
+                                    tangent = vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i);
+    const struct vndf_render_vector on = vndf_render_unit_vector(vndf_render_sum(
+        vndf_render_sum(vndf_render_scaled(wi.x, tangent), wi.y, vndf_render_cross(normal, tangent)), wi.z,
+        normal));
+    const float red = path[VNDF_PATH_RED * stride + i], green = path[VNDF_PATH_GREEN * stride + i],
+                blue = path[VNDF_PATH_BLUE * stride + i];
+    const float luminance = VNDF_FMA(0.2126f, red, VNDF_FMA(0.7152f, green, 0.0722f * blue));
+    const float chance = roulette ? vndf_impl_min(luminance, 1.0f) : 1.0f;
+    const int goes_on = material[i] != VNDF_MISS && luminance > 0.0f && u.d < chance;
+    const float raised = 1.0f / (goes_on ? chance : 1.0f);
+    path[VNDF_PATH_DX * stride + i] = on.x;
+    path[VNDF_PATH_DY * stride + i] = on.y;
+    path[VNDF_PATH_DZ * stride + i] = on.z;
+    path[VNDF_PATH_RED * stride + i] = red * raised;
+    path[VNDF_PATH_GREEN * stride + i] = green * raised;
+    path[VNDF_PATH_BLUE * stride + i] = blue * raised;
+    alive[i] = goes_on ? 1u : 0u;
+}
+
+#endif

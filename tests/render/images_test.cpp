@@ -1,0 +1,187 @@
+// Images are right: scenes with a known answer, samplers that agree, errors that fall as they must. The script
+// tests/render_images.sh runs the same with more samples.
+#include <cstdlib>
+
+#include "error.h"
+#include "scenes.h"
+
+using namespace vndf;
+using namespace vndf::test;
+
+namespace {
+
+// As many times the samples as the quick form.
+unsigned effort() {
+    const char* const variable = std::getenv("CLVNDF_EFFORT");
+    return variable ? static_cast<unsigned>(std::atoi(variable)) : 1;
+}
+
+render::Material mirror(float alpha_x, float alpha_y) {
+    return render::conductor({1, 1, 1}, alpha_x, alpha_y);
+}
+
+// The slope of log(error) over log(samples) by least squares.
+double slope(const Rendered& r, double value, std::initializer_list<unsigned> samples) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const unsigned count : samples) {
+        Rendered part = r;
+        part.samples = count;
+        const double a = std::log(count), b = std::log(rms_from(part.image(), value));
+        n += 1, x += a, y += b, xx += a * a, xy += a * b;
+    }
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+}  // namespace
+
+TEST_CASE("the analytic albedo is what is known of it") {
+    CHECK(ggx_albedo(1e-3, 1.0) == Catch::Approx(1).margin(1e-3));
+    CHECK(ggx_albedo(0.6, 70 * std::numbers::pi / 180) == Catch::Approx(0.691).margin(5e-3));
+}
+
+TEST_CASE("a white furnace reflects the analytic albedo within 1e-3") {
+    for (const auto& [alpha, degrees] : {std::pair{0.1f, 70.0}, {0.6f, 45.0}, {1.0f, 60.0}}) {
+        CAPTURE(alpha, degrees);
+        const double theta = degrees * std::numbers::pi / 180;
+        const Rendered r = rendered(floor_of(mirror(alpha, alpha), theta), 32, 32, 64 * effort());
+        CHECK(mean(r.image()) == Catch::Approx(ggx_albedo(alpha, theta)).epsilon(0).margin(1e-3));
+    }
+    const Rendered matt = rendered(floor_of(render::lambert({0.5f, 0.5f, 0.5f}), 0.5), 16, 16, 16 * effort());
+    CHECK(mean(matt.image()) == Catch::Approx(0.5).epsilon(0).margin(1e-3));
+}
+
+TEST_CASE("a furnace never gives more than it gets") {
+    Rendered r = rendered(render::orbs("roughness"), 64, 32, 16 * effort());
+    r.scene.sky = render::constant_sky(1);
+    for (render::Material& m : r.scene.materials) m.first = m.albedo = {1, 1, 1};
+    r.settings.max_bounces = 32;
+    const render::Image image = r.image();
+    CHECK(image.bad_pixels == 0);
+    CHECK(mean(image) < 1.001);
+    CHECK(mean(image) > 0.9);  // white throughout, but for what microfacets lose
+}
+
+TEST_CASE("direct light has its closed form") {
+    const float albedo = 0.8f;
+    render::Scene scene = floor_of(render::lambert({albedo, albedo, albedo}), 0.3);
+    scene.sky = render::constant_sky(0);
+    scene.sky.sun_share = 1;
+    scene.sky.sun = {100, 100, 100};
+    scene.sky.sun_radius = 0.1f;
+    scene.sky.to_sun = {0.6f, 0.8f, 0};
+    // The sun, all of it above the horizon: an irradiance of pi L sin^2(radius) cos(theta).
+    const double sun = albedo * 100 * std::pow(std::sin(0.1), 2) * 0.8;
+    CHECK(mean(rendered(scene, 16, 16, 64 * effort()).image()) == Catch::Approx(sun).epsilon(1e-3));
+
+    // A white sky and a black ball before it, whole above the horizon: the ball's form factor is (radius / distance)^2 cos.
+    render::Scene shaded = floor_of(render::lambert({albedo, albedo, albedo}), 0.3);
+    shaded.add_sphere({0, 3, 4.013f}, 1.5f, 128, render::lambert({0, 0, 0}));
+    const double ball = 1.5 * 1.5 / 25 * 0.6;
+    CHECK(mean(rendered(shaded, 32, 32, 64 * effort()).image()) ==
+          Catch::Approx(albedo * (1 - ball)).epsilon(1e-3));
+}
+
+TEST_CASE("every sampler draws the same image") {
+    constexpr int seeds = 8;
+    for (const std::string ndf : {"ggx", "beckmann"}) {
+        double first_mean = 0, first_error = 0;
+        for (const std::string sampler : {"plain", "bounded", "conic", "ndf", "cosine"}) {
+            if (ndf == "beckmann" && (sampler == "bounded" || sampler == "conic")) continue;
+            CAPTURE(ndf, sampler);
+            Rendered r = rendered(floor_of(mirror(0.3f, 0.6f), 0.9), 24, 24, 16 * effort());
+            r.scene.sky.zenith = {0.1f, 0.2f, 0.6f};
+            r.scene.sky.horizon = {0.9f, 0.8f, 0.7f};
+            r.scene.sky.sun_share = 0.3f;
+            r.scene.sky.sun = {40, 40, 40};
+            r.scene.sky.sun_radius = 0.15f;
+            r.scene.sky.to_sun = {-0.6f, 0.64f, 0.48f};
+            r.choices.ndf = ndf;
+            r.choices.sampler = sampler;
+            r.choices.random = "philox";
+            r.settings.random = render::Random::philox;
+            double sum = 0, square = 0;
+            const auto stages =
+                render::device_stages(runtime::choose_device().device, runtime::Math::strict, r.switches());
+            for (int seed = 1; seed <= seeds; ++seed) {
+                r.settings.seed = static_cast<std::uint64_t>(seed);
+                const double value = mean(r.on(*stages));
+                sum += value;
+                square += value * value;
+            }
+            const double average = sum / seeds,
+                         error = std::sqrt(std::max(0.0, square / seeds - average * average) / (seeds - 1));
+            if (sampler == "plain") {
+                first_mean = average;
+                first_error = error;
+                continue;
+            }
+            // Student's t with 14 degrees of freedom: 1e-6 for five comparisons.
+            CHECK(std::abs(average - first_mean) < 8.5 * std::hypot(error, first_error));
+            // And the comparison is a sharp one.
+            CHECK(error < 0.02 * average);
+        }
+    }
+}
+
+TEST_CASE("errors fall with the root of the number of samples, and faster with Sobol's") {
+    const double theta = 0.8;
+    Rendered r = rendered(floor_of(mirror(0.6f, 0.6f), theta), 32, 32, 0);
+    const double value = ggx_albedo(0.6, theta);
+    r.choices.random = "philox";
+    r.settings.random = render::Random::philox;
+    CHECK(slope(r, value, {4, 16, 64, 256}) == Catch::Approx(-0.5).margin(0.05));
+    r.choices.random = "sobol";
+    r.settings.random = render::Random::sobol;
+    CHECK(slope(r, value, {4, 16, 64, 256}) < -0.6);
+}
+
+TEST_CASE("the estimated error is near the error") {
+    Rendered r = rendered(floor_of(mirror(0.6f, 0.6f), 0.8), 32, 32, 64);
+    r.choices.random = "philox";
+    r.settings.random = render::Random::philox;
+    const render::Image image = r.image();
+    const double value = ggx_albedo(0.6, 0.8), error = rms_from(image, value) / value;
+    CHECK(image.error > error / 1.2);
+    CHECK(image.error < error * 1.2);
+}
+
+TEST_CASE("what is no number is counted, and left out of the image") {
+    Rendered r = rendered(floor_of(render::lambert({NAN, 0.5f, 0.5f}), 0.3), 8, 8, 4);
+    const render::Image image = r.image();
+    CHECK(image.bad_pixels == 64);
+    CHECK(image.bad_samples == 256);
+    for (const float x : image.pixels) CHECK(std::isfinite(x));
+    r.scene.materials[0].albedo[0] = 0.5f;
+    CHECK(r.image().bad_pixels == 0);
+}
+
+TEST_CASE("hard materials make no pixel that is no number") {
+    Rendered r = rendered(render::orbs("roughness"), 48, 20, 8 * effort());
+    const float alphas[] = {1e-8f, 1e-4f, 1e-2f, 3.0f, 1e3f};
+    for (int i = 0; i < 5; ++i) {
+        r.scene.materials[i].alpha_x = alphas[i];
+        r.scene.materials[i].alpha_y = alphas[4 - i];
+    }
+    for (const std::string sampler : {"bounded", "conic"}) {
+        CAPTURE(sampler);
+        r.choices.sampler = sampler;
+        CHECK(r.image().bad_pixels == 0);
+    }
+}
+
+TEST_CASE("a mesh that Embree would end the process for is refused") {
+    for (const float bad : {NAN, INFINITY, 1e20f}) {
+        render::Scene scene = floor_of(render::lambert({1, 1, 1}), 0.1);
+        scene.vertices[1].place[2] = bad;
+        CHECK_THROWS_AS(render::build_tree(scene), InputError);
+    }
+    // Nothing at all is a scene, too: the sky.
+    Rendered empty;
+    empty.scene.sky = render::constant_sky(0.25f);
+    empty.scene.materials.push_back(render::lambert({1, 1, 1}));
+    empty.scene.vertices.resize(1);
+    empty.scene.triangles.resize(1);
+    empty.settings.width = empty.settings.height = 4;
+    empty.samples = 1;
+    CHECK(mean(empty.image()) == 0.25);
+}

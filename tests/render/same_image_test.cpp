@@ -1,0 +1,117 @@
+// What changes no bit of an image: effects that are off because nothing calls for them, the size of the queues, the number of
+// threads, and where the stages run.
+#include <fmt/format.h>
+
+#include "scenes.h"
+#include "support/command.h"
+
+using namespace vndf;
+using namespace vndf::test;
+
+namespace {
+
+bool same(const render::Image& a, const render::Image& b) {
+    return a.pixels == b.pixels && a.error == b.error;
+}
+
+Rendered small_orbs(const std::string& kind) {
+    return rendered(render::orbs(kind), 60, 25, 4);
+}
+
+}  // namespace
+
+TEST_CASE("with the effects that a scene calls for and with all of them, its image has the same bits") {
+    for (const std::string& kind : render::orb_kinds()) {
+        CAPTURE(kind);
+        Rendered r = small_orbs(kind);
+        const render::Image called = r.image();
+        r.effects = "all";
+        CHECK(same(called, r.image()));
+        CHECK(called.bad_pixels == 0);
+        // And the program is another one.
+        Rendered automatic = small_orbs(kind);
+        CHECK(automatic.switches().materials != r.switches().materials);
+    }
+    // Without an effect that the scene calls for it is another image.
+    Rendered r = small_orbs("anisotropy");
+    const render::Image whole = r.image();
+    r.effects = "conductor,lambert,shading_normal,terminator";
+    CHECK_FALSE(same(whole, r.image()));
+}
+
+TEST_CASE("each effect that nothing calls for changes no bit by itself") {
+    Rendered r = small_orbs("roughness");
+    const auto effects = render::effects_for(r.scene, "auto");
+    const auto image = [&](const std::vector<render::Effect>& some) {
+        const auto stages = render::device_stages(runtime::choose_device().device, runtime::Math::strict,
+                                                  render::switches(r.scene, some, r.choices));
+        return r.on(*stages);
+    };
+    const render::Image usual = image(effects);
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        if (effects[i].on) continue;
+        CAPTURE(effects[i].name);
+        auto more = effects;
+        more[i].on = true;
+        CHECK(same(usual, image(more)));
+    }
+}
+
+TEST_CASE("the size of the queues changes no bit") {
+    Rendered r = small_orbs("roughness");
+    const render::Image usual = r.image();
+    for (const std::size_t queue : {1, 256, 500, 1000}) {
+        CAPTURE(queue);
+        r.settings.queue = queue;
+        CHECK(same(usual, r.image()));
+    }
+}
+
+TEST_CASE("the stages as C++ have the bits of the device") {
+    for (const std::string& kind : render::orb_kinds()) {
+        CAPTURE(kind);
+        Rendered r = small_orbs(kind);
+        if (r.scene.fresnel != "schlick") continue;  // the C++ build has that one alone
+        const auto cpp = render::cpp_stages();
+        CHECK(same(r.image(), r.on(*cpp)));
+    }
+}
+
+TEST_CASE("another seed is another image, the same seed the same") {
+    Rendered r = small_orbs("roughness");
+    const render::Image first = r.image();
+    CHECK(same(first, r.image()));
+    r.settings.seed = 2;
+    CHECK_FALSE(same(first, r.image()));
+    r.settings.seed = 1;
+    r.choices.random = "philox";
+    r.settings.random = render::Random::philox;
+    CHECK_FALSE(same(first, r.image()));
+}
+
+TEST_CASE("the number of threads changes no bit, and both kinds of file hold the image") {
+    const Folder folder;
+    const std::string render = "\"$clvndf\" --quiet render --size 60x25 --spp 2 ";
+    CHECK(shell(folder, "POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 " + render + "-o one.png && " +
+                            render + "-o two.png && cmp one.png two.png") == 0);
+    CHECK(folder.read("one.png").starts_with("\x89PNG"));
+    CHECK(shell(folder, render + "-o a.exr && " + render + "--seed 2 -o b.exr && ! cmp -s a.exr b.exr") == 0);
+    const std::string exr = folder.read("a.exr");
+    CHECK(exr.starts_with("\x76\x2f\x31\x01"));
+    for (const char* word : {"orbs of roughness", "samples per pixel", "VNDF_CONDUCTOR=1"})
+        CHECK(exr.find(word) != exr.npos);
+}
+
+TEST_CASE("Ctrl-C writes what is there") {
+    const Folder folder;
+    // Once the file is there by another name, it is at work.
+    CHECK(
+        shell(
+            folder,
+            "env --default-signal=INT \"$clvndf\" render --size 60x25 --time 10000 -o a.png 2>err & run=$!\n"
+            "n=0; until ls -A | grep -q 'a\\.png' || [ $n = 400 ]; do sleep .05; n=$((n+1)); done\n"
+            "sleep .2; kill -INT $run; wait $run") == 0);
+    CHECK(folder.read("a.png").starts_with("\x89PNG"));
+    CHECK(folder.read("err").find("interrupted; a.png holds what is there") != std::string::npos);
+    CHECK(folder.files() == 2);
+}
