@@ -250,11 +250,13 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_half_ndf(struct vndf_ggx_lobe lobe, VNDF_REAL3 w
     x *= scale;
     y *= scale;
     z *= scale;
-    VNDF_REAL px = lobe.alpha_y * x, py = lobe.alpha_x * y, pz = a * z;
-    VNDF_REAL low = VNDF_FMA(px, VNDF_FMA(lobe.alpha_y, x, -px), py * VNDF_FMA(lobe.alpha_x, y, -py));
+    // The products 2^13 times larger, so that their errors are not lost as subnormal numbers.
+    VNDF_REAL up = VNDF_R(8192.0), kx = up * lobe.alpha_x, ky = up * lobe.alpha_y;
+    VNDF_REAL px = ky * x, py = kx * y, pz = up * a * z;
+    VNDF_REAL low = VNDF_FMA(px, VNDF_FMA(ky, x, -px), py * VNDF_FMA(kx, y, -py));
     VNDF_REAL q = VNDF_FMA(px, px, VNDF_FMA(py, py, VNDF_FMA(pz, pz, low + low)));
     int above = z > VNDF_R(0.0) && q > VNDF_R(0.0);
-    VNDF_REAL s = a * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)) / (above ? q : VNDF_R(1.0));
+    VNDF_REAL s = up * up * a * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)) / (above ? q : VNDF_R(1.0));
     return above ? VNDF_1_PI * s * (a * s) : VNDF_R(0.0);
 }
 
