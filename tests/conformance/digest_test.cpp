@@ -97,7 +97,7 @@ TEST_CASE("one rounding more changes the digest and is told apart") {
     runtime::ProgramOptions program;
     program.functions = {name};
     program.substitutions = {
-        {"kernels/vndf/ggx_dupuy2023.h", "VNDF_FMA(rest, height2, l2)", "(rest * height2 + l2)", 1}};
+        {"kernels/vndf/impl/lobe.h", "VNDF_FMA(rest, height2, l2)", "(rest * height2 + l2)", 1}};
     program.mutant = 1;
     runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
                                     runtime::Real::f32, program);
