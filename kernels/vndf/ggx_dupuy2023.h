@@ -10,7 +10,7 @@
 
 VNDF_BEGIN
 
-// The normal g of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2) by the length that h has.
+// The normal g of a half vector h, and its density by the length that h has.
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     struct vndf_impl_sample m;
     struct vndf_impl_vector h = vndf_impl_cap_half(v, u);

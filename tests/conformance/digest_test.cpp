@@ -96,8 +96,7 @@ TEST_CASE("one rounding more changes the digest and is told apart") {
     const std::string name = "vndf_ggx_sample_wm_dupuy2023";
     runtime::ProgramOptions program;
     program.functions = {name};
-    program.substitutions = {
-        {"kernels/vndf/impl/lobe.h", "VNDF_FMA(rest, height2, l2)", "(rest * height2 + l2)", 1}};
+    program.substitutions = {{"kernels/vndf/impl/lobe.h", "VNDF_FMA(rest, h2, l2)", "(rest * h2 + l2)", 1}};
     program.mutant = 1;
     runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
                                     runtime::Real::f32, program);

@@ -22,8 +22,7 @@ VNDF_BEGIN
 // theta of 2^27 v, whose squares neither underflow nor overflow.
 struct vndf_impl_axis {
     VNDF_REAL t, l2;  // r, l^2
-    // weight l / height = tan(theta / 2): height = r + z above the surface; below it l^2, and the weight r - z, both over
-    // about l.
+    // weight l / height = tan(theta / 2): l / (r + z) above the surface; below it (r - z) l / l^2, both over about l.
     VNDF_REAL height, weight, z;  // z: weight v.z
     int level;                    // near the horizon: |z| < height / 4
 };
@@ -68,16 +67,16 @@ VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
     return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
 }
 
-// e + (x, y), e at azimuth u1 and height z, |e|^2 = square. Where the two nearly cancel, only the rounding of |e| is wrong:
-// |e|^2 - l2 = z (2 z_v - z), or `steep` where that cancels, corrects it.
+// e + (x, y), e at azimuth u1 and height z, |e|^2 = e2. What rounding does to |e| is corrected: e2 - l2 = z (2 z_v - z), or
+// `steep` where that cancels.
 VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_REAL l2, VNDF_REAL u1,
-                                                  VNDF_REAL z, VNDF_REAL square, VNDF_REAL steep) {
+                                                  VNDF_REAL z, VNDF_REAL e2, VNDF_REAL steep) {
     struct vndf_impl_vector h;
-    VNDF_REAL radius = VNDF_SQRT(square);
+    VNDF_REAL radius = VNDF_SQRT(e2);
     VNDF_REAL ex = radius * vndf_impl_circle_cos(u1), ey = radius * vndf_impl_circle_sin(u1);
     VNDF_REAL hx = ex + v.x, hy = ey + v.y,
               excess = v.axis.level ? z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -z) : steep;
-    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (square + l2);
+    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (e2 + l2);
     h.x = VNDF_FMA(-error, ex, hx);
     h.y = VNDF_FMA(-error, ey, hy);
     h.z = z;
@@ -87,9 +86,9 @@ VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_R
 // The plain cap.
 VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.axis.height * v.axis.height;
-    return vndf_impl_cap_sum(v, l2, u1, rest * v.axis.height, u2 * VNDF_FMA(rest, height2, l2),
-                             rest * VNDF_FMA(u2, height2, -l2));
+    VNDF_REAL height = v.axis.height, h2 = height * height, l2 = VNDF_FMA(v.x, v.x, v.y * v.y);
+    return vndf_impl_cap_sum(v, l2, u1, rest * height, u2 * VNDF_FMA(rest, h2, l2),
+                             rest * VNDF_FMA(u2, h2, -l2));
 }
 
 // The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k

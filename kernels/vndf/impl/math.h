@@ -79,7 +79,7 @@ VNDF_FN VNDF_REAL vndf_impl_sin_2pi(VNDF_REAL x) {
 
 // sin(2 pi u) for u in [0, 1]. Accuracy: absolute 1.43 / 2; relative 1.8 / 3 and 1.43 ulp for u < 1/2.
 VNDF_FN VNDF_REAL vndf_impl_circle_sin(VNDF_REAL u) {
-    // Folded onto [-1/4, 1/4]: u, 1/2 - u or u - 1, exact where chosen.
+    // Folded onto [-1/4, 1/4] by u, 1/2 - u or u - 1, exactly.
     VNDF_REAL fold = vndf_impl_min(u, VNDF_R(0.5) - u);
     return vndf_impl_sin_2pi(vndf_impl_max(fold, u - VNDF_R(1.0)));
 }
