@@ -145,7 +145,7 @@ VNDF_FN VNDF_REAL vndf_impl_half_cosine(VNDF_REAL3 wo, VNDF_REAL3 wi) {
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
 // A parameter of the next channel, made dependent on the last one's reflectance, so that LLVM's SLP pass does not pack the alike
 // formulas (impl/stretch.h); the other choice is never taken.
-VNDF_FN VNDF_REAL vndf_impl_next(VNDF_REAL parameter, VNDF_REAL last) {
+VNDF_FN VNDF_REAL vndf_impl_next_channel(VNDF_REAL parameter, VNDF_REAL last) {
     return last >= VNDF_R(0.0) ? parameter : VNDF_R(1.0);
 }
 #endif
@@ -153,16 +153,16 @@ VNDF_FN VNDF_REAL vndf_impl_next(VNDF_REAL parameter, VNDF_REAL last) {
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL cosine) {
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
     VNDF_REAL red = vndf_fresnel_conductor(cosine, b.eta.r, b.k.r);
-    VNDF_REAL green = vndf_fresnel_conductor(cosine, vndf_impl_next(b.eta.g, red), b.k.g);
-    VNDF_REAL blue = vndf_fresnel_conductor(cosine, vndf_impl_next(b.eta.b, green), b.k.b);
+    VNDF_REAL green = vndf_fresnel_conductor(cosine, vndf_impl_next_channel(b.eta.g, red), b.k.g);
+    VNDF_REAL blue = vndf_fresnel_conductor(cosine, vndf_impl_next_channel(b.eta.b, green), b.k.b);
 #elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
     VNDF_REAL red = vndf_fresnel_schlick(cosine, b.f0.r, b.f90),
               green = vndf_fresnel_schlick(cosine, b.f0.g, b.f90),
               blue = vndf_fresnel_schlick(cosine, b.f0.b, b.f90);
 #elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
     VNDF_REAL red = vndf_fresnel_f82(cosine, b.f0.r, b.f82.r);
-    VNDF_REAL green = vndf_fresnel_f82(cosine, vndf_impl_next(b.f0.g, red), b.f82.g);
-    VNDF_REAL blue = vndf_fresnel_f82(cosine, vndf_impl_next(b.f0.b, green), b.f82.b);
+    VNDF_REAL green = vndf_fresnel_f82(cosine, vndf_impl_next_channel(b.f0.g, red), b.f82.g);
+    VNDF_REAL blue = vndf_fresnel_f82(cosine, vndf_impl_next_channel(b.f0.b, green), b.f82.b);
 #else
     VNDF_REAL red = VNDF_R(1.0), green = VNDF_R(1.0), blue = VNDF_R(1.0);
     (void)cosine;

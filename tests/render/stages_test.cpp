@@ -14,8 +14,6 @@ namespace {
 
 // A walk through a tree has no fixed number of steps; counts of paths add up one after the other.
 const std::set<std::string> serial{"traverse", "shadow", "rank", "offsets"};
-// Fresnel's equations for three channels at once: LLVM's SLP pass packs them (kernels/README.md).
-const std::set<std::string> packed{"connect", "scatter"};
 
 struct Remarks {
     int vectorised = 0, failures = 0;
@@ -53,9 +51,7 @@ TEST_CASE("every stage of the renderer is vectorised on PoCL, but those that can
         CHECK(all.size() >= 12);
         for (const auto& [stage, said] : all) {
             CAPTURE(stage, said.vectorised, said.failures);
-            const bool exempt =
-                serial.contains(stage) || (options == "--orbs metals" && packed.contains(stage));
-            CHECK(((said.vectorised > 0 && said.failures == 0) != exempt));
+            CHECK(((said.vectorised > 0 && said.failures == 0) != serial.contains(stage)));
         }
     }
 }
