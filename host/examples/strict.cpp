@@ -56,5 +56,5 @@ int main() {
     const int strict = other_bits(clvndf_build_options(CLVNDF_STRICT, CLVNDF_FLOAT, config));
     const int relaxed = other_bits(fast);
     std::printf("of %d with other bits: %d of the strict object, %d of fast math\n", n, strict, relaxed);
-    return strict == 0 && relaxed > 0 ? 0 : 1;
+    return strict != 0;
 }

@@ -310,3 +310,28 @@ TEST_CASE("a rounded cosine costs D and the densities 4 / alpha^2 half units, ma
     CHECK(std::sqrt(1 - std::pow(1 - 0x1p-24, 2)) == Catch::Approx(3.4e-4).epsilon(0.02));
     CHECK(std::sqrt(0x1p-53 * (2 - 0x1p-53)) == Catch::Approx(1.4e-8).epsilon(0.07));
 }
+
+TEST_CASE(
+    "seen from behind along -n, beyond the cotangents that slopes are limited to, a density by cosines is "
+    "right") {
+    const Function& pdf = *find_function("vndf_beckmann_pdf_wi_cosines");
+    Table rows{{{}, {}, {}}};
+    for (const double cosine : {-1 + 0x1p-24, -1 + 0x1p-23})
+        for (double alpha = 1e-6; alpha < 3e-6; alpha *= 1.001) {
+            rows.columns[0].push_back(cosine), rows.columns[1].push_back(1);
+            rows.columns[2].push_back(conformance::rounded(alpha, Real::f32));
+        }
+    const auto densities = evaluate_on_host(Real::f32, pdf.name.c_str(), rows)[0];
+    int steep = 0;
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+        const std::vector<double> row = rows.row(i);
+        double exact[4];
+        reference::find_evaluation<double>(pdf.name)(row.data(), exact, reference::Precision::f32);
+        if (exact[0] > 3.4e38) continue;
+        const double cot = std::abs(row[0]) / (row[2] * std::sqrt((1 - row[0]) * (1 + row[0])));
+        steep += cot > 0x1p30;
+        INFO(hex_row(pdf, row));
+        CHECK(std::abs(densities[i] / exact[0] - 1) <= bounds_of(pdf, Real::f32).error * epsilon(Real::f32));
+    }
+    CHECK(steep > 30);
+}

@@ -166,8 +166,8 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_share(struct vndf_beckmann_lob
     struct vndf_impl_power least =
         vndf_impl_split(area.part > VNDF_R(0.0) ? lobe.slopes.hidden : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
-    // Where the slopes limit |a|, the density is 0: the cosine of two vectors of numbers is not that small.
-    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part;
+    // Where |a| is limited, the density grows with its square on.
+    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part * lobe.beyond * lobe.beyond;
     scale.part = VNDF_1_PI * share * (up.part * lobe.rcp_x) * (up.part * lobe.rcp_y);
     scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
     scale.part = front || level ? scale.part : VNDF_R(0.0);
