@@ -1,6 +1,6 @@
 // Strict samples in a renderer that is built with -cl-fast-relaxed-math: the sampler is compiled apart, with
 // its own options, and the object linked into the program. Exit status 0 if its results have the bits that the
-// headers have in C++, and the same text compiled as the renderer is has others.
+// headers have in C++, whatever those of the same text are that is compiled as the renderer is.
 #define CL_HPP_MINIMUM_OPENCL_VERSION 110
 #define CL_HPP_TARGET_OPENCL_VERSION 300
 #define CL_HPP_ENABLE_EXCEPTIONS
