@@ -171,6 +171,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi)
 
 // The weight of a visible normal's reflection: brdf cos(theta_i) / vndf_ggx_pdf_wi of a perfectly conducting mirror.
 // Source: Heitz 2014, Equations 43 and 99: G2 / G1(wo) = i (o + t_o) / (t_o i + t_i o), o = wo.z, i = wi.z.
+//     G2 is height-correlated; of the separable one the weight is vndf_ggx_g1(wi, alpha).
 // wo, wi: unit vectors, local frame.
 // return: in [0, 1]; 0 unless both are above the horizon.
 // Accuracy: 8 eps; double 8.
