@@ -34,7 +34,8 @@ const Function& named_function(const std::string& name) {
     for (const BsdfFunction& bsdf : bsdf_functions())
         if (bsdf.name == name)
             throw InputError(fmt::format(
-                "'{}' takes a material, not numbers: have clvndf emit write it for the effects of yours", name));
+                "'{}' takes a material, not numbers: have clvndf emit write it for the effects of yours",
+                name));
     throw InputError(fmt::format("unknown function '{}'; the nearest names are {} (see clvndf list)", name,
                                  fmt::join(nearest_names(name), ", ")));
 }

@@ -80,7 +80,8 @@ TEST_CASE("every command runs to its end with every option") {
         "--selftest",
         "emit vndf_bsdf_sample --effects lambert,fresnel=none --output material.h",
         "render --help",
-        "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking separable --random philox "
+        "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
+        "separable --random philox "
         "--math builtin --orbs anisotropy --effects all --device \"$device\"",
         "render --output a.exr --size 8x4 --time 0.01 --explain",
         "render --output b.png --size 8x4 --target-error 0.5",
@@ -200,7 +201,8 @@ TEST_CASE("emit refuses what it cannot write, and writes the same for the same r
         {"emit vndf_reflect --prefix ''", "--prefix: its value is empty"},
         {"emit vndf_ggx_conic2026_lobe --selftest", "--selftest: vndf_ggx_conic2026_lobe returns no numbers"},
         {"emit vndf_reflect --effects all", "--effects all: no function of a material"},
-        {"emit vndf_bsdf_sample --effects lamp", "--effects: unknown 'lamp'; allowed are all, conductor, lambert"},
+        {"emit vndf_bsdf_sample --effects lamp",
+         "--effects: unknown 'lamp'; allowed are all, conductor, lambert"},
         {"emit vndf_bsdf_sample --effects fresnel=x", "unknown 'fresnel=x'"},
         {"emit vndf_bsdf_sample --effects tint", "--effects 'tint': nothing is left of a material"},
         {"emit vndf_bsdf_sample --effects all,ndf=beckmann,sampling=conic",
