@@ -114,6 +114,16 @@ VNDF_FN VNDF_REAL vndf_impl_conductor_weight(struct vndf_impl_conductor c, VNDF_
     return masked * vndf_impl_conductor_share(c);
 }
 
+#if VNDF_CHOSEN(VNDF_SAMPLING, plain)
+// The plain cap, as in ggx_dupuy2023.h.
+VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
+    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.axis.height * v.axis.height;
+    return vndf_impl_cap_sum(v, l2, u1, rest * v.axis.height, u2 * VNDF_FMA(rest, height2, l2),
+                             rest * VNDF_FMA(u2, height2, -l2));
+}
+#endif
+
 VNDF_FN struct vndf_impl_sample vndf_impl_conductor_sample(struct vndf_impl_conductor c, VNDF_REAL2 u) {
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     return vndf_impl_lobe_reflection(c.lobe, c.bound.height, vndf_impl_bounded_half(c.lobe, c.bound, u));

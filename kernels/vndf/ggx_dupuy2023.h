@@ -13,7 +13,10 @@ VNDF_BEGIN
 // The normal g of a half vector, and its density |g|^3 / (pi alpha_x alpha_y height |h|^2) by the length that h has.
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     struct vndf_impl_sample m;
-    struct vndf_impl_vector h = vndf_impl_cap_half(v, u);
+    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
+    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.axis.height * v.axis.height;
+    struct vndf_impl_vector h = vndf_impl_cap_sum(
+        v, l2, u1, rest * v.axis.height, u2 * VNDF_FMA(rest, height2, l2), rest * VNDF_FMA(u2, height2, -l2));
     VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
     VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;

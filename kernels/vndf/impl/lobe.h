@@ -84,14 +84,6 @@ VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_R
     return h;
 }
 
-// The plain cap.
-VNDF_FN struct vndf_impl_vector vndf_impl_cap_half(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
-    VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u2;
-    VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), height2 = v.axis.height * v.axis.height;
-    return vndf_impl_cap_sum(v, l2, u1, rest * v.axis.height, u2 * VNDF_FMA(rest, height2, l2),
-                             rest * VNDF_FMA(u2, height2, -l2));
-}
-
 // The reflection of wo about the unstretched normal g of a half vector, and its density D / (2 n), n = height / weight = k
 // wo.z + |v|.
 VNDF_FN struct vndf_impl_sample vndf_impl_lobe_reflection(struct vndf_ggx_lobe v, VNDF_REAL height,
