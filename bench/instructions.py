@@ -100,7 +100,7 @@ def entries(clang, target):
         for division in DIVISIONS if form == "published" else ("ieee", "fast"):
             for name, instructions, registers, spills in sorted(TARGETS[target](clang, target, division, code)):
                 name = name.removeprefix("vndf_batch_")
-                if "_sample_" in name or form == "copy":
+                if re.search("(ggx|beckmann)_sample_", name) or form == "copy":
                     yield {"function": name, "form": form, "target": target, "division": division,
                            "instructions": instructions, "registers": registers, "spills": spills}
 

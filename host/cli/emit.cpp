@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/output_file.h"
+#include "effects.h"
 #include "emit/emit.h"
 
 namespace vndf::cli {
@@ -52,8 +53,9 @@ void add_emit(CLI::App& app, Common& common) {
         ->capture_default_str();
     add_switches(*command, e->math, e->real);
     command->add_option("--prefix", e->prefix, "what every name begins with")->capture_default_str();
-    command->add_option("--effects", e->effects,
-                        "of a material: all (default), or effects and choices: conductor,tint,fresnel=f82");
+    command->add_option_function<std::string>(
+        "--effects", [e](const std::string& text) { parse_effects(text), e->effects = text; },
+        "of a material: all (default), or effects and choices: conductor,tint,fresnel=f82");
     command->add_flag("--selftest", e->selftest, "with a kernel of known answers that counts wrong results");
     command->callback([e, &common] { common.action = [e] { run(*e); }; });
 }
