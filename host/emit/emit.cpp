@@ -216,10 +216,14 @@ std::string as_string(const std::string& source, const Options& options) {
            "\n#endif\n";
 }
 
-// What users of a material fill in and read.
-const std::set<std::string>& material_structs() {
-    static const std::set<std::string> all{"vndf_bsdf", "vndf_bsdf_value", "vndf_bsdf_direction", "vndf_rgb"};
-    return all;
+// The structs that are users': those of materials, and of lobes of which no function is asked for that would read them.
+std::set<std::string> structs_of_users(const Options& options, const std::vector<Declaration>& all) {
+    std::set<std::string> structs{"vndf_bsdf", "vndf_bsdf_value", "vndf_bsdf_direction", "vndf_rgb"};
+    const auto reads = [](const std::string& name) { return find_function(name) || is_bsdf(name); };
+    if (std::any_of(options.functions.begin(), options.functions.end(), reads)) return structs;
+    for (const Declaration& declaration : all)
+        if (declaration.tokens[0].text == "struct") structs.insert(declaration.name);
+    return structs;
 }
 
 }  // namespace
@@ -277,7 +281,8 @@ std::string emit(const Options& options) {
     const std::vector<Token> tokens = preprocess(source, macros(options));
     std::set<std::string> names(options.functions.begin(), options.functions.end());
     if (options.selftest) names.merge(selftest_needs(options));
-    std::vector<Declaration> chosen = pruned(closure(declarations(tokens), names), names, material_structs());
+    const std::vector<Declaration> needed = closure(declarations(tokens), names);
+    std::vector<Declaration> chosen = pruned(needed, names, structs_of_users(options, needed));
     std::set<std::string> files;  // whose head is kept: of those with a function asked for
     for (const Declaration& declaration : chosen)
         if (names.contains(declaration.name)) files.insert(declaration.file);
