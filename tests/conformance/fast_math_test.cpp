@@ -32,8 +32,8 @@ std::vector<Names> broken(const std::string& flags, const Names& names) {
     std::vector<const Function*> selected;
     for (const std::string& name : names) selected.push_back(find_function(name));
     std::vector<Names> all;
-    for (const FastMathFigures& f : measured(flags, selected).entries.at(0).functions)
-        all.push_back(f.broken());
+    const FastMathReport report = measured(flags, selected);
+    for (const FastMathFigures& f : report.entries.at(0).functions) all.push_back(f.broken());
     return all;
 }
 
