@@ -1,30 +1,14 @@
 #include "effects.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "error.h"
+#include "text.h"
 
 namespace vndf {
 namespace {
-
-std::string cased(std::string text, int (*to)(int)) {
-    for (char& c : text) c = static_cast<char>(to(static_cast<unsigned char>(c)));
-    return text;
-}
-
-std::vector<std::string> split(std::string_view text, char separator) {
-    std::vector<std::string> words{""};
-    for (const char c : text) {
-        if (c == separator)
-            words.emplace_back();
-        else
-            words.back() += c;
-    }
-    return words;
-}
 
 InputError unknown(std::string_view word) {
     std::vector<std::string> allowed{"all"};
@@ -49,7 +33,7 @@ void choose(Effects& chosen, const std::string& word) {
 
 const std::vector<EffectChoice>& effect_choices() {
     static const std::vector<EffectChoice> all{
-#define VNDF_CHOICE(name, values) {cased(#name, std::tolower), split(values, ' ')},
+#define VNDF_CHOICE(name, values) {lower(#name), split(values, ' ')},
 #include "../kernels/effects.def"
     };
     return all;
@@ -57,18 +41,20 @@ const std::vector<EffectChoice>& effect_choices() {
 
 const std::vector<Effect>& effects() {
     static const std::vector<Effect> all{
-#define VNDF_EFFECT(name, called_for, marks) {cased(#name, std::tolower), called_for},
+#define VNDF_EFFECT(name, called_for, marks) {lower(#name), called_for},
 #include "../kernels/effects.def"
     };
     return all;
 }
 
+std::string switch_of(std::string_view name) {
+    return "VNDF_" + upper(std::string(name));
+}
+
 std::vector<std::string> Effects::macros() const {
     std::vector<std::string> all;
-    for (const auto& [name, value] : choices)
-        all.push_back(fmt::format("VNDF_{}={}", cased(name, std::toupper), value));
-    for (const auto& [name, is_on] : on)
-        all.push_back(fmt::format("VNDF_{}={}", cased(name, std::toupper), is_on ? 1 : 0));
+    for (const auto& [name, value] : choices) all.push_back(fmt::format("{}={}", switch_of(name), value));
+    for (const auto& [name, is_on] : on) all.push_back(fmt::format("{}={:d}", switch_of(name), is_on));
     return all;
 }
 

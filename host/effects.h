@@ -9,16 +9,19 @@
 namespace vndf {
 
 struct EffectChoice {
-    std::string name;                 // "fresnel": VNDF_FRESNEL
+    std::string name;                 // "fresnel"
     std::vector<std::string> values;  // the default first
 };
 const std::vector<EffectChoice>& effect_choices();
 
 struct Effect {
-    std::string name;        // "back_facing": VNDF_BACK_FACING
+    std::string name;        // "back_facing"
     std::string called_for;  // what in a scene calls for it
 };
 const std::vector<Effect>& effects();
+
+// The macro of an effect or choice: VNDF_BACK_FACING for back_facing.
+std::string switch_of(std::string_view name);
 
 // What a program is built with: a value of each choice, and whether each effect is on.
 struct Effects {

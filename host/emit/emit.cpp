@@ -1,7 +1,6 @@
 #include "emit/emit.h"
 
 #include <algorithm>
-#include <cctype>
 #include <regex>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "effects.h"
 #include "error.h"
 #include "registry.h"
+#include "text.h"
 
 namespace vndf::emit {
 namespace {
@@ -22,11 +22,6 @@ std::vector<std::string> all_names() {
     for (const LobeFunction& lobe : lobe_functions()) names.push_back(lobe.name);
     for (const BsdfFunction& bsdf : bsdf_functions()) names.push_back(bsdf.name);
     return names;
-}
-
-std::string upper(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
 }
 
 // vndf_ and VNDF_ at the beginning of each name become the prefix.

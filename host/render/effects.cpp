@@ -7,16 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "../effects.h"
 #include "error.h"
+#include "text.h"
 
 namespace vndf::render {
 namespace {
-
-std::string in_case(std::string text, int (*convert)(int)) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [=](unsigned char c) { return static_cast<char>(convert(c)); });
-    return text;
-}
 
 // "material 0 and 4 others" for the materials that `calls`; empty if there is none.
 std::string materials_that(const Scene& scene, const std::function<bool(const Material&)>& calls) {
@@ -81,34 +77,16 @@ const std::map<std::string, std::function<std::string(const Scene&)>>& callers()
 
 std::vector<Effect> called_effects(const Scene& scene) {
     std::vector<Effect> effects;
-    const auto add = [&](const char* name) {
-        Effect effect{in_case(name, std::tolower), "every scene", true};
-        if (const auto caller = callers().find(effect.name); caller != callers().end())
-            effect.called_by = caller->second(scene);
+    for (const vndf::Effect& known : vndf::effects()) {
+        const auto caller = callers().find(known.name);
+        Effect effect{known.name, caller == callers().end() ? "every scene" : caller->second(scene)};
         effect.on = !effect.called_by.empty();
         effects.push_back(effect);
-    };
-#define VNDF_EFFECT(name, called_for, marks) add(#name);
-#include "kernels/effects.def"
+    }
     return effects;
 }
 
-std::vector<std::string> split(std::string_view text) {
-    std::vector<std::string> words(1);
-    for (const char c : text) {
-        if (c == ',')
-            words.emplace_back();
-        else
-            words.back() += c;
-    }
-    return words;
-}
-
 }  // namespace
-
-std::string Effect::macro() const {
-    return "VNDF_" + in_case(name, std::toupper);
-}
 
 const std::vector<std::string>& samplers() {
     static const std::vector<std::string> all{"bounded", "plain", "conic", "ndf", "cosine"};
@@ -122,7 +100,7 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
     if (asked == "all") return effects;
     std::vector<std::string> names;
     for (const Effect& effect : effects) names.push_back(effect.name);
-    for (const std::string& word : split(asked)) {
+    for (const std::string& word : split(asked, ',')) {
         const auto found = std::find(names.begin(), names.end(), word);
         if (found == names.end())
             throw InputError(fmt::format("--effects '{}': '{}' is none; auto, all or some of {} are allowed",
@@ -148,7 +126,7 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
                                    scene.fresnel, choices.masking);
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
-    for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", effect.macro(), effect.on);
+    for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on);
     return {"-DVNDF_RANDOM=" + choices.random, text};
 }
 

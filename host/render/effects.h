@@ -14,8 +14,6 @@ struct Effect {
     std::string name;       // "anisotropic"
     std::string called_by;  // what in the scene calls for it; empty: nothing does
     bool on = true;
-
-    std::string macro() const;  // "VNDF_ANISOTROPIC"
 };
 
 // Of the models that results depend on, one each.

@@ -8,6 +8,7 @@
 
 #include "error.h"
 #include "runtime/no_device.h"
+#include "text.h"
 
 namespace vndf::runtime {
 namespace {
@@ -59,11 +60,6 @@ void append_devices(const cl::Platform& platform, std::vector<Device>& all) {
     } catch (const cl::Error&) {
         // Installed without a usable device (Clover on a machine without a GPU answers so).
     }
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
 }
 
 const Device& default_device(const std::vector<Device>& all) {

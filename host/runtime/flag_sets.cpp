@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "error.h"
+#include "text.h"
 
 namespace vndf::runtime {
 namespace {
@@ -16,14 +17,6 @@ std::vector<std::string> words(const std::string& text) {
     std::vector<std::string> all;
     for (std::string word; stream >> word;) all.push_back(word);
     return all;
-}
-
-std::vector<std::string> split_at_commas(std::string_view text) {
-    std::vector<std::string> parts;
-    for (std::size_t comma; (comma = text.find(',')) != text.npos; text.remove_prefix(comma + 1))
-        parts.emplace_back(text.substr(0, comma));
-    parts.emplace_back(text);
-    return parts;
 }
 
 // The flags that a word of a set stands for.
@@ -85,7 +78,7 @@ std::vector<FlagSet> flag_pairs() {
 
 std::vector<FlagSet> parse_flag_sets(std::string_view text) {
     std::vector<FlagSet> sets;
-    for (const std::string& part : split_at_commas(text)) {
+    for (const std::string& part : split(text, ',')) {
         const std::vector<std::string> parts = words(part);
         if (parts.empty()) throw InputError(fmt::format("--flags: an empty set in '{}'", text));
         if (parts.size() == 1 && (parts[0] == "renderers" || parts[0] == "pairs")) {

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -17,14 +16,10 @@
 #include "error.h"
 #include "runtime/opencl.h"
 #include "runtime/opencl_error.h"
+#include "text.h"
 
 namespace vndf::runtime {
 namespace {
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 std::string environment(const char* variable) {
     const char* const value = std::getenv(variable);
