@@ -3,6 +3,7 @@
 #define VNDF_RENDER_GENERATE_H
 
 #include "random.h"
+#include "vector.h"
 
 // Densities that count as certain in the choice between a path's own and the lights' samples: far above the lights', and
 // neither its square nor that of its inverse leaves the range of numbers.
@@ -20,15 +21,10 @@ VNDF_RENDER_KERNEL vndf_render_generate(const struct vndf_render_view view, VNDF
     const float dy = VNDF_FMA(x, view.right_y, VNDF_FMA(y, view.up_y, view.forward_y));
     const float dz = VNDF_FMA(x, view.right_z, VNDF_FMA(y, view.up_z, view.forward_z));
     const float scale = 1.0f / VNDF_SQRT(VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz)));
-    path[VNDF_PATH_X * stride + i] = view.x;
-    path[VNDF_PATH_Y * stride + i] = view.y;
-    path[VNDF_PATH_Z * stride + i] = view.z;
-    path[VNDF_PATH_DX * stride + i] = dx * scale;
-    path[VNDF_PATH_DY * stride + i] = dy * scale;
-    path[VNDF_PATH_DZ * stride + i] = dz * scale;
-    path[VNDF_PATH_RED * stride + i] = 1.0f;
-    path[VNDF_PATH_GREEN * stride + i] = 1.0f;
-    path[VNDF_PATH_BLUE * stride + i] = 1.0f;
+    vndf_render_store(vndf_render_vector_of(view.x, view.y, view.z), path, VNDF_PATH_X, stride, i);
+    vndf_render_store(vndf_render_vector_of(dx * scale, dy * scale, dz * scale), path, VNDF_PATH_DX, stride,
+                      i);
+    vndf_render_store(vndf_render_vector_of(1.0f, 1.0f, 1.0f), path, VNDF_PATH_RED, stride, i);
     path[VNDF_PATH_PDF * stride + i] = VNDF_CERTAIN;
     slot[i] = i;
     light[i] = 0.0f;

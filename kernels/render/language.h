@@ -13,6 +13,7 @@
 #define VNDF_RENDER_IN(type) __global const type* restrict
 #define VNDF_RENDER_OUT(type) __global type* restrict
 #define VNDF_RENDER_FROM(type) __global const type*
+#define VNDF_RENDER_TO(type) __global type*
 #define VNDF_RENDER_ITEM ((uint)get_global_id(0))
 #define VNDF_RENDER_8(x) ((float8)(x))
 #define VNDF_RENDER_ANY(mask) any(mask)
@@ -29,6 +30,7 @@
 #define VNDF_RENDER_IN(type) const type*
 #define VNDF_RENDER_OUT(type) type*
 #define VNDF_RENDER_FROM(type) const type*
+#define VNDF_RENDER_TO(type) type*
 #define VNDF_RENDER_ITEM vndf_render_item
 #define VNDF_RENDER_8(x) (float8{} + (x))
 #define VNDF_RENDER_ANY(mask) vndf_render_any(mask)

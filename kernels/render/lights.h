@@ -51,9 +51,8 @@ VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_REN
     const float z = VNDF_FMA(a, s * c, VNDF_FMA(b, VNDF_FMA(nz * nz, k, s), height * nz));
     const int in_sun = vndf_render_gap(sky, x, y, z) <= sky.sun_gap;
     const float low4 = vndf_render_low4(y);
-    light[VNDF_LIGHT_DX * stride + i] = x;
-    light[VNDF_LIGHT_DY * stride + i] = y;
-    light[VNDF_LIGHT_DZ * stride + i] = z;
+    const struct vndf_render_vector wi = vndf_render_vector_of(x, y, z);
+    vndf_render_store(wi, light, VNDF_LIGHT_DX, stride, i);
     light[VNDF_LIGHT_RED * stride + i] = vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red,
                                                               low4, y >= 0.0f, sky.sun_red, in_sun);
     light[VNDF_LIGHT_GREEN * stride + i] = vndf_render_radiance(
@@ -61,12 +60,10 @@ VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_REN
     light[VNDF_LIGHT_BLUE * stride + i] = vndf_render_radiance(
         sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, y >= 0.0f, sky.sun_blue, in_sun);
     light[VNDF_LIGHT_PDF * stride + i] = vndf_render_light_pdf(sky, y, in_sun);
-    const struct vndf_render_vector framed = vndf_render_local(
-        vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
-        vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i), vndf_render_vector_of(x, y, z));
-    light[VNDF_LIGHT_X * stride + i] = framed.x;
-    light[VNDF_LIGHT_Y * stride + i] = framed.y;
-    light[VNDF_LIGHT_Z * stride + i] = framed.z;
+    const struct vndf_render_vector framed =
+        vndf_render_local(vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
+                          vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i), wi);
+    vndf_render_store(framed, light, VNDF_LIGHT_X, stride, i);
 }
 
 // The weight of a sample with the density p beside one that has q in the same direction, by the power heuristic: from the

@@ -53,9 +53,7 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
     const struct vndf_render_direction wi = vndf_render_draw(
         vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), bsdf, VNDF_MAKE2(u.a, u.b), u.c);
-    path[VNDF_PATH_DX * stride + i] = wi.x;
-    path[VNDF_PATH_DY * stride + i] = wi.y;
-    path[VNDF_PATH_DZ * stride + i] = wi.z;
+    vndf_render_store(vndf_render_vector_of(wi.x, wi.y, wi.z), path, VNDF_PATH_DX, stride, i);
     path[VNDF_PATH_RED * stride + i] *= wi.value.weight.r;
     path[VNDF_PATH_GREEN * stride + i] *= wi.value.weight.g;
     path[VNDF_PATH_BLUE * stride + i] *= wi.value.weight.b;

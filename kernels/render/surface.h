@@ -73,21 +73,11 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
     const struct vndf_render_vector place = vndf_render_mix(a, b, c, b1, b2);
     const float size2 = vndf_render_dot(place, place) + vndf_render_dot(ab, ab) + vndf_render_dot(ac, ac);
     const struct vndf_render_vector origin = vndf_render_sum(place, 1e-6f * VNDF_SQRT(size2), geometric);
-    path[VNDF_PATH_X * stride + i] = origin.x;
-    path[VNDF_PATH_Y * stride + i] = origin.y;
-    path[VNDF_PATH_Z * stride + i] = origin.z;
-    surface[VNDF_SURFACE_NORMAL * stride + i] = normal.x;
-    surface[(VNDF_SURFACE_NORMAL + 1) * stride + i] = normal.y;
-    surface[(VNDF_SURFACE_NORMAL + 2) * stride + i] = normal.z;
-    surface[VNDF_SURFACE_TANGENT * stride + i] = tangent.x;
-    surface[(VNDF_SURFACE_TANGENT + 1) * stride + i] = tangent.y;
-    surface[(VNDF_SURFACE_TANGENT + 2) * stride + i] = tangent.z;
-    surface[VNDF_SURFACE_WO * stride + i] = wo_local.x;
-    surface[(VNDF_SURFACE_WO + 1) * stride + i] = wo_local.y;
-    surface[(VNDF_SURFACE_WO + 2) * stride + i] = wo_local.z;
-    surface[VNDF_SURFACE_GEOMETRIC * stride + i] = geometric_local.x;
-    surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i] = geometric_local.y;
-    surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i] = geometric_local.z;
+    vndf_render_store(origin, path, VNDF_PATH_X, stride, i);
+    vndf_render_store(normal, surface, VNDF_SURFACE_NORMAL, stride, i);
+    vndf_render_store(tangent, surface, VNDF_SURFACE_TANGENT, stride, i);
+    vndf_render_store(wo_local, surface, VNDF_SURFACE_WO, stride, i);
+    vndf_render_store(geometric_local, surface, VNDF_SURFACE_GEOMETRIC, stride, i);
     material[i] = met ? triangles[VNDF_TRIANGLE_MATERIAL * sizes.triangles + number] : VNDF_MISS;
 }
 

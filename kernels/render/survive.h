@@ -18,18 +18,13 @@ VNDF_RENDER_KERNEL vndf_render_survive(VNDF_RENDER_IN(uint) material, VNDF_RENDE
     const struct vndf_render_vector on = vndf_render_unit_vector(vndf_render_sum(
         vndf_render_sum(vndf_render_scaled(wi.x, tangent), wi.y, vndf_render_cross(normal, tangent)), wi.z,
         normal));
-    const float red = path[VNDF_PATH_RED * stride + i], green = path[VNDF_PATH_GREEN * stride + i],
-                blue = path[VNDF_PATH_BLUE * stride + i];
-    const float luminance = VNDF_FMA(0.2126f, red, VNDF_FMA(0.7152f, green, 0.0722f * blue));
+    const struct vndf_render_vector carried = vndf_render_vector_at(path, VNDF_PATH_RED, stride, i);
+    const float luminance = VNDF_FMA(0.2126f, carried.x, VNDF_FMA(0.7152f, carried.y, 0.0722f * carried.z));
     const float chance = roulette ? vndf_impl_min(luminance, 1.0f) : 1.0f;
     const int goes_on = material[i] != VNDF_MISS && luminance > 0.0f && u.d < chance;
     const float raised = 1.0f / (goes_on ? chance : 1.0f);
-    path[VNDF_PATH_DX * stride + i] = on.x;
-    path[VNDF_PATH_DY * stride + i] = on.y;
-    path[VNDF_PATH_DZ * stride + i] = on.z;
-    path[VNDF_PATH_RED * stride + i] = red * raised;
-    path[VNDF_PATH_GREEN * stride + i] = green * raised;
-    path[VNDF_PATH_BLUE * stride + i] = blue * raised;
+    vndf_render_store(on, path, VNDF_PATH_DX, stride, i);
+    vndf_render_store(vndf_render_scaled(raised, carried), path, VNDF_PATH_RED, stride, i);
     alive[i] = goes_on ? 1u : 0u;
 }
 

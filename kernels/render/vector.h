@@ -21,6 +21,12 @@ VNDF_FN struct vndf_render_vector vndf_render_vector_at(VNDF_RENDER_FROM(float) 
     return vndf_render_vector_of(planes[k * stride + i], planes[(k + 1) * stride + i],
                                  planes[(k + 2) * stride + i]);
 }
+VNDF_FN void vndf_render_store(struct vndf_render_vector v, VNDF_RENDER_TO(float) planes, uint k, uint stride,
+                               uint i) {
+    planes[k * stride + i] = v.x;
+    planes[(k + 1) * stride + i] = v.y;
+    planes[(k + 2) * stride + i] = v.z;
+}
 VNDF_FN float vndf_render_dot(struct vndf_render_vector a, struct vndf_render_vector b) {
     return VNDF_FMA(a.x, b.x, VNDF_FMA(a.y, b.y, a.z * b.z));
 }
