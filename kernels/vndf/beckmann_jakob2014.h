@@ -12,9 +12,9 @@
 VNDF_BEGIN
 
 VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_jakob2014(struct vndf_beckmann_lobe lobe, VNDF_REAL2 u) {
-    struct vndf_impl_visible_slope r = vndf_impl_slope_of_mass(lobe.slopes, vndf_impl_u(u.x));
-    // The slope across is erfinv(2 u2 - 1); the normal leans against it.
-    return vndf_impl_beckmann_normal(lobe, r, vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y)));
+    // The slope across is erfinv(2 u2 - 1); the normal leans against it. First, since nothing waits for it: the rest is one chain.
+    VNDF_REAL across = vndf_impl_erfcinv(VNDF_R(2.0) * vndf_impl_u(u.y));
+    return vndf_impl_beckmann_normal(lobe, vndf_impl_slope_of_mass(lobe.slopes, vndf_impl_u(u.x)), across);
 }
 
 // A visible normal by inversion of the visible slope distribution.

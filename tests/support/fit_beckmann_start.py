@@ -105,12 +105,12 @@ class Side:
         near = self.q * self.area * e - self.above(y) * e
         close = (y < 0.6) & (np.abs(x * y) < 0.6)
         v = ROOT_PI * np.where(close, near, far) / y
-        k, second = v * x, -0.5 * self.cot * v * v / y
-        third = -1.5 * second * v / y
-        b = (k * k + second) / 6
-        high = 1 + k + b
-        low = 1 + 1.5 * k + 2 * b + k * k / 4 + (k**3 + 3 * k * second + third) / 24
-        return y * np.sqrt(np.maximum(1 + v / y * high / low, 1e-9))
+        k, l = v * x, -0.5 * self.cot * v * v / y
+        m = 0.75 * self.cot * v**3 / y**2
+        high = 1 + k + (k * k + l) / 6
+        low = 1 + 1.5 * k + 7 / 12 * k * k + k**3 / 24 + l * (1 / 3 + k / 8) + m / 24
+        n = np.maximum(v / y * high, -low)
+        return y * (1 + n * (n / 4 + low / 2) / (low * (low + 0.75 * n) + n * n / 16))
 
     def error(self, start):
         """What the step leaves of a polynomial's error, over the tolerance."""

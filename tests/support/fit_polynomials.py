@@ -220,14 +220,14 @@ def piece(function, float_interval, double_interval, weight=relative):
 # Each case: one polynomial, or several over adjoining intervals whose coefficients are selected together.
 CASES = [
     dict(name="SIN_2PI", what="sin(2 pi x) / x - 4 in z = x^2, |x| <= 1/4", kind="relative to sin(2 pi x) / x",
-         degree=dict(float=4, double=9),
+         degree=dict(float=4, double=9), estrin="float",
          pieces=[piece(lambda z: mp.sin(2 * mp.pi * mp.sqrt(z)) / mp.sqrt(z) - 4,
                        *[(mpf("1e-30"), mpf(1) / 16)] * 2, lambda z, f: 1 / (f + 4))]),
     dict(name="LOG", what="(log((1 + s) / (1 - s)) - 2 s) / s^3 in z = s^2, |s| <= 3 - 2 sqrt(2)",
          kind="relative to the logarithm", degree=dict(float=2, double=6),
          pieces=[piece(log_tail, *[(mpf(0), (3 - 2 * mp.sqrt(2)) ** 2)] * 2, lambda z, f: z / (2 + z * f))]),
     dict(name="EXP", what="(exp(z) - 1 - z) / z^2, |z| <= log(2) / 2", kind="relative to exp(z)",
-         degree=dict(float=4, double=9),
+         degree=dict(float=4, double=9), estrin="float",
          pieces=[piece(exp_tail, *[(-mp.log(2) / 2, mp.log(2) / 2)] * 2, lambda z, f: z * z / mp.exp(z))]),
     dict(name="SCALED_ERFC", what="r of erfcx and ierfcx (math.h) in v = 2 / (2 + x), x >= 0; double: in v - 1/2",
          kind="relative to either", degree=dict(float=11, double=25), estrin="float",
@@ -238,6 +238,7 @@ CASES = [
          kind="relative to the logarithm", degree=dict(float=8), estrin="float",
          pieces=[piece(log1p_rest, MANTISSA, None, lambda z, f: abs(z / (1 + z * f)))]),
     dict(name="LOG1P_ROUGH", what="log(1 + z) / z, as above", kind="relative", degree=dict(float=3, double=3),
+         estrin="float",
          pieces=[piece(lambda z: mp.log1p(z) / z, MANTISSA, MANTISSA)]),
     dict(name="ERFINV", what="R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then, in float, in"
          " z = sqrt(w) - 9/2, w <= 42; in double, R / sqrt(w) in z = 1 / sqrt(w) - 1/4, w <= 40, and in z = 1 / sqrt(w) - 1/10, w <= 744",

@@ -17,29 +17,38 @@ VNDF_BEGIN
 // The view direction. `steep` is at most 2^53 (double: 2^501): beyond, every density is more than a number.
 #if VNDF_DOUBLE
 #define VNDF_IMPL_COT_LIMIT 1152921504606846976.0     // 2^60
+#define VNDF_IMPL_LOG2E_BITS 6497320848556798.1       // 2^52 / log(2)
 #define VNDF_IMPL_STEEP_LIMIT 6.5465360707009880e150  // 2^501
 #else
 #define VNDF_IMPL_COT_LIMIT 1073741824.0f          // 2^30
+#define VNDF_IMPL_LOG2E_BITS 12102203.2f           // 2^23 / log(2)
 #define VNDF_IMPL_STEEP_LIMIT 9007199254740992.0f  // 2^53
 #endif
 struct vndf_impl_incidence_slopes {
     int front;
     VNDF_REAL steep;     // |a|
     VNDF_REAL a;         // |a|, at most 2^30 (double: 2^60): beyond, y is as 1 / |a|
-    VNDF_REAL gaussian;  // in front e^(-a^2) where it counts beside a, behind 1
+    VNDF_REAL s;         // 2 / (2 + |a|), to some eps
+    VNDF_REAL exponent;  // in front a^2 where e^(-a^2) counts beside a, behind 0
+    VNDF_REAL gaussian;  // e^-exponent
     VNDF_REAL erfcx;     // E(|a|)
     VNDF_REAL ierfcx;    // I(|a|)
     VNDF_REAL hidden;    // I(|a|) gaussian: in front h, behind A
     VNDF_REAL plateau;   // in front a, behind 0
     VNDF_REAL area;      // A
 };
-VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL steep, int front) {
+// Of the two numbers whose quotient is steep: s does not wait for it.
+VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL steep, VNDF_REAL height,
+                                                                       VNDF_REAL width, int front) {
     struct vndf_impl_incidence_slopes i;
     VNDF_REAL bounded = front ? vndf_impl_min(steep, VNDF_DOUBLE ? VNDF_R(9.0) : VNDF_R(6.0)) : VNDF_R(0.0);
     i.front = front;
     i.steep = steep;
     i.a = vndf_impl_min(steep, VNDF_IMPL_COT_LIMIT);
-    i.gaussian = vndf_impl_moderate_exp(-bounded * bounded);
+    VNDF_REAL twice = VNDF_R(2.0) * width;
+    i.s = vndf_impl_max(twice / (twice + height), VNDF_R(2.0) / VNDF_IMPL_COT_LIMIT);
+    i.exponent = bounded * bounded;
+    i.gaussian = vndf_impl_moderate_exp(-i.exponent);
     struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(i.a);
     i.erfcx = f.erfcx;
     i.ierfcx = f.ierfcx;
@@ -72,24 +81,35 @@ VNDF_FN VNDF_REAL vndf_impl_edge_integral(VNDF_REAL z, VNDF_REAL w) {
         // clang-format on
         return sum;
 #else
-#define VNDF_IMPL_IN_Z_W(a, b, c, d, e, f, g, h, i, j, k, l)                                       \
-    VNDF_FMA(VNDF_FMA(VNDF_FMA(l, z, k), w, VNDF_FMA(VNDF_FMA(VNDF_FMA(j, z, i), z, h), z, g)), w, \
-             VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_FMA(VNDF_FMA(f, z, e), z, d), z, c), z, b), z, a))
+    VNDF_REAL z2 = z * z;
+#define VNDF_IMPL_IN_Z_W(a, b, c, d, e, f, g, h, i, j, k, l)                                        \
+    VNDF_FMA(VNDF_FMA(VNDF_FMA(l, z, k), w, VNDF_FMA(VNDF_FMA(j, z, i), z2, VNDF_FMA(h, z, g))), w, \
+             VNDF_FMA(VNDF_FMA(VNDF_FMA(f, z, e), z2, VNDF_FMA(d, z, c)), z2, VNDF_FMA(b, z, a)))
     return VNDF_IMPL_EDGE(VNDF_IMPL_IN_Z_W, VNDF_R);
 #undef VNDF_IMPL_IN_Z_W
 #endif
 }
 
 // Where to start, for the mass u below and q = 1 - u above: a polynomial in the size of a normal's quantile,
-// nu = -+sqrt(-log(4 u q)), and s = 2 / (2 + |a|), for x in front and y / s behind the surface. Next to the edge, where the
-// mass q is y^2 gaussian / (2 sqrt(pi) A) (1 + 4/3 a y), y by that: to 5 %, its root and quotient from the bits.
+// nu = -+sqrt(-log(4 u q)), and s, for x in front and y / s behind the surface. Next to the edge, where the mass q is
+// y^2 gaussian / (2 sqrt(pi) A) (1 + 4/3 a y), y by that: to 6 %, its root, quotient and exponential from the bits, with A to
+// 3 %, since nothing else of the start waits for the exact ones.
 VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
                                                              VNDF_REAL q) {
     struct vndf_impl_visible_slope r;
     VNDF_REAL size = VNDF_SQRT(vndf_impl_max(-vndf_impl_rough_log(VNDF_R(4.0) * u * q), VNDF_R(0.0)));
-    VNDF_REAL nu = u < VNDF_R(0.5) ? -size : size, s = VNDF_R(2.0) / (VNDF_R(2.0) + i.a);
+    VNDF_REAL nu = u < VNDF_R(0.5) ? -size : size, s = i.s;
     int front = i.front;
     VNDF_REAL nu2 = nu * nu, s2 = s * s;
+    VNDF_REAL rest = VNDF_FMA(VNDF_R(0.2), s2, VNDF_FMA(VNDF_R(0.045), s, VNDF_R(0.0353)));
+    VNDF_REAL area = VNDF_FMA(s2, front ? VNDF_R(0.282) * s2 : rest, i.plateau);
+    // 3.7, not 2 sqrt(pi): too far from the edge converges better than too near.
+    VNDF_INT one = VNDF_AS_INT(VNDF_R(1.0)), exponent = (VNDF_INT)(i.exponent * VNDF_IMPL_LOG2E_BITS);
+    VNDF_REAL close = VNDF_AS_REAL(((VNDF_AS_INT(VNDF_R(3.7) * q * area) + exponent - one) >> 1) + one);
+    VNDF_REAL cot = front ? i.a : -i.a, reach = front ? VNDF_R(2.7) : s, least = VNDF_R(0.05) * reach;
+    int edge = close < VNDF_R(0.1) * reach;
+    VNDF_REAL beside = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
+
 #define VNDF_IMPL_SIDE(f, b) (front ? VNDF_R(f) : VNDF_R(b))
 #define VNDF_IMPL_IN_NU(a, b, c, d, e) VNDF_FMA(VNDF_FMA(VNDF_FMA(e, nu, d), nu, c), nu2, VNDF_FMA(b, nu, a))
     VNDF_REAL c0 = VNDF_IMPL_START_0(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
@@ -101,38 +121,42 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
 #undef VNDF_IMPL_IN_NU
     VNDF_REAL p = VNDF_FMA(VNDF_FMA(VNDF_FMA(c4, s, c3), s, c2), s2, VNDF_FMA(c1, s, c0));
 
-    // 3.7, not 2 sqrt(pi): too far from the edge converges better than too near.
-    VNDF_INT one = VNDF_AS_INT(VNDF_R(1.0));
-    VNDF_INT bits = (VNDF_AS_INT(VNDF_R(3.7) * q * i.area) - VNDF_AS_INT(i.gaussian) + one) >> 1;
-    VNDF_REAL close = VNDF_AS_REAL(bits + (one >> 1));
-    VNDF_REAL cot = front ? i.a : -i.a, reach = front ? VNDF_R(2.7) : s, least = VNDF_R(0.05) * reach;
-    int edge = close < VNDF_R(0.1) * reach;
-    VNDF_REAL beside = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
-    VNDF_REAL inner = vndf_impl_max(front ? i.a - p : s * p, least);
+    VNDF_REAL inner = vndf_impl_max(VNDF_FMA(front ? VNDF_R(-1.0) : s, p, i.plateau), least);
     r.y = edge ? beside : inner;
     // Where a is large, a - y has lost the digits of x.
     r.x = front && !edge ? vndf_impl_min(p, i.a - least) : cot - r.y;
     return r;
 }
 
+// A C e^(x^2) next to x, in front with y = a - x put in; for x > 0 less a e^(x^2). From the polynomial of erfcx and ierfcx,
+// r, which is what all waits for: weight E / 2 + I, of which r has one factor.
+VNDF_FN VNDF_REAL vndf_impl_slope_mass(struct vndf_impl_incidence_slopes i,
+                                       struct vndf_impl_visible_slope r) {
+    VNDF_REAL size = vndf_impl_abs(r.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
+    int right = r.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
+    struct vndf_impl_scaled_erfc_terms f = vndf_impl_scaled_erfc_terms_at(v);
+    // For small x behind the surface I is (1 / sqrt(pi) - x E) / 2.
+    VNDF_REAL weight = front ? (right ? -i.a : i.a) : (tail ? r.y : r.y - size), part = VNDF_R(0.5) * weight;
+    VNDF_REAL rest = VNDF_FMA(part, f.erfcx, tail ? f.ierfcx : VNDF_R(0.5) * VNDF_1_SQRT_PI);
+    return VNDF_FMA(VNDF_FMA(part * f.v, f.v3, tail ? f.v3 * (f.v - VNDF_R(1.0)) : VNDF_R(0.0)), f.r, rest);
+}
+
 // One step towards the slope of mass u, of fifth order in Z = y^2: A C' = -e^(-x^2) / (2 sqrt(pi)) there, without a zero at
 // the edge, and (log A C')' = x / y. With v = 2 sqrt(pi) (A C - A u) e^(x^2) / y, the ratios of derivatives are powers of
-// k = v x and of -a v^2 / (2 y).
+// k = v x and of -a v^2 / (2 y). Processors wait for this chain more than they compute: what it needs last comes last.
 VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
                                                             VNDF_REAL q, struct vndf_impl_visible_slope r) {
-    VNDF_REAL y = r.y, x = r.x, size = vndf_impl_abs(x), rcp = VNDF_R(1.0) / y;
+    VNDF_REAL y = r.y, x = r.x;
     int right = x > VNDF_R(0.0), front = i.front;
-    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_at(size, VNDF_R(2.0) / (VNDF_R(2.0) + size));
-    VNDF_REAL e = vndf_impl_moderate_exp((front ? size : y) * (front ? size : i.a + size));
-    // A C e^(x^2), in front with y = a - x put in; for x > 0 both it and the target are less a e^(x^2).
-    VNDF_REAL weight = front ? (right ? -i.a : i.a) : y;
-    VNDF_REAL mass = VNDF_FMA(VNDF_R(0.5) * weight, f.erfcx, front ? VNDF_R(0.5) * VNDF_1_SQRT_PI : f.ierfcx);
     VNDF_REAL target = right ? VNDF_FMA(-q, i.plateau, u * i.hidden) : u * i.area;
+    VNDF_REAL e = vndf_impl_moderate_exp((front ? x : y) * (front ? x : VNDF_R(2.0) * i.a + y));
+    VNDF_REAL rcp = VNDF_R(1.0) / y;
     // Next to the edge the same from q, since masses near 1 are nearly equal.
     VNDF_REAL square = y * y, lean = VNDF_R(-2.0) * x * y;
     int edge = y <= VNDF_R(0.25) && vndf_impl_abs(lean) <= VNDF_R(0.4);
     VNDF_REAL above =
         square * vndf_impl_edge_integral(edge ? lean : VNDF_R(0.0), edge ? square : VNDF_R(0.0));
+    VNDF_REAL mass = vndf_impl_slope_mass(i, r);
     VNDF_REAL excess =
         VNDF_FMA(edge ? q * i.area : -target, e, edge ? VNDF_R(-0.5) * VNDF_1_SQRT_PI * above : mass);
 
@@ -140,13 +164,17 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_inc
     VNDF_REAL cot = front ? i.a : -i.a, second = VNDF_R(-0.5) * cot * rcp,
               third = VNDF_R(-1.5) * second * rcp;
     VNDF_REAL l = second * v2, m = third * v2 * v;
-    VNDF_REAL b = (k2 + l) * VNDF_R(0.16666666666666666667), high = VNDF_R(1.0) + k + b;
-    VNDF_REAL cubic = VNDF_FMA(k, VNDF_FMA(VNDF_R(3.0), l, k2), m);
-    VNDF_REAL linear = VNDF_FMA(k, VNDF_FMA(k, VNDF_R(0.25), VNDF_R(1.5)), VNDF_R(1.0));
-    VNDF_REAL low = VNDF_FMA(cubic, VNDF_R(0.041666666666666666667), VNDF_FMA(VNDF_R(2.0), b, linear));
-    // Z grows by high v / (low y) of its size. Never as far as to the edge.
-    VNDF_REAL n = vndf_impl_max(v * rcp * high, VNDF_R(-0.9999999) * low);
-    VNDF_REAL shift = y * (n / (low + VNDF_SQRT(low * (low + n))));
+    VNDF_REAL high = VNDF_FMA(l, VNDF_R(0.16666666666666666667),
+                              VNDF_FMA(k2, VNDF_R(0.16666666666666666667), VNDF_R(1.0) + k));
+    VNDF_REAL powers = VNDF_FMA(VNDF_FMA(k, VNDF_R(0.041666666666666666667), VNDF_R(0.58333333333333333333)),
+                                k2, VNDF_FMA(k, VNDF_R(1.5), VNDF_R(1.0)));
+    VNDF_REAL low = VNDF_FMA(m, VNDF_R(0.041666666666666666667),
+                             VNDF_FMA(l, VNDF_FMA(k, VNDF_R(0.125), VNDF_R(0.33333333333333333333)), powers));
+    // Z grows by n / low of its size, never as far as to the edge; its root by Pade's approximant.
+    VNDF_REAL n = vndf_impl_max(v * rcp * high, -low);
+    VNDF_REAL over = y * n * VNDF_FMA(VNDF_R(0.25), n, VNDF_R(0.5) * low);
+    VNDF_REAL under = VNDF_FMA(low, VNDF_FMA(VNDF_R(0.75), n, low), VNDF_R(0.0625) * n * n);
+    VNDF_REAL shift = over / under;
     r.y = y + shift;
     r.x = x - shift;
     return r;
@@ -176,7 +204,7 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_angle(VNDF_REAL cos
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
     VNDF_REAL steep = vndf_impl_abs(cos_theta) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     return vndf_impl_beckmann_incidence(sine > VNDF_R(0.0) ? steep : VNDF_IMPL_STEEP_LIMIT,
-                                        cos_theta >= VNDF_R(0.0));
+                                        vndf_impl_abs(cos_theta), sine, cos_theta >= VNDF_R(0.0));
 }
 
 // A slope x: its visible cosine, and y, how far it is from the edge cot(theta), 0 beyond.
@@ -211,7 +239,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
                                                              VNDF_REAL alpha_y, VNDF_REAL weight) {
     struct vndf_impl_sample m;
     // Two forms: alike they would be packed (impl/stretch.h).
-    VNDF_REAL gx = alpha_x * VNDF_FMA(t, ex, -(y * ey)), gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t);
+    VNDF_REAL gx = VNDF_FMA(alpha_x * ex, t, -(alpha_x * ey * y)),
+              gy = VNDF_FMA(alpha_y * ey, t, alpha_y * ex * y);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, VNDF_R(1.0))), length = VNDF_SQRT(length2);
     VNDF_REAL rcp = VNDF_R(1.0) / length;
     m.x = gx * rcp;

@@ -24,6 +24,7 @@ VNDF_BEGIN
 // step is Horner's, which rounds less; z^8 would leave the range of numbers.
 #define VNDF_IMPL_P2(a, b) VNDF_FMA(b, z, a)
 #define VNDF_IMPL_P4(a, b, c, d) VNDF_FMA(VNDF_IMPL_P2(c, d), z2, VNDF_IMPL_P2(a, b))
+#define VNDF_IMPL_P5(a, b, c, d, e) VNDF_FMA(VNDF_FMA(e, z2, VNDF_IMPL_P2(c, d)), z2, VNDF_IMPL_P2(a, b))
 #define VNDF_IMPL_P8(a, b, c, d, e, f, g, h) VNDF_FMA(VNDF_IMPL_P4(e, f, g, h), z4, VNDF_IMPL_P4(a, b, c, d))
 #define VNDF_IMPL_P9(a, b, c, d, e, f, g, h, i) VNDF_FMA(VNDF_IMPL_P8(b, c, d, e, f, g, h, i), z, a)
 #define VNDF_IMPL_P12(a, b, c, d, e, f, g, h, i, j, k, l) \
@@ -54,7 +55,7 @@ VNDF_BEGIN
 #endif
 
 VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
-    return x < VNDF_R(0.0) ? -x : x;
+    return VNDF_STD(fabs)(x);
 }
 VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL x, VNDF_REAL limit) {
     return x > limit ? limit : x;
@@ -131,7 +132,11 @@ VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
     VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL z = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
+#if VNDF_DOUBLE
     VNDF_IMPL_LOG1P_ROUGH(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+#else
+    VNDF_REAL z2 = z * z, p = VNDF_IMPL_LOG1P_ROUGH(VNDF_IMPL_P4, VNDF_R);
+#endif
     return VNDF_FMA(k, VNDF_R(0.69314718055994530942), z * p);
 }
 
@@ -146,6 +151,17 @@ VNDF_FN VNDF_REAL vndf_impl_times_power(VNDF_REAL x, VNDF_INT exponent) {
     return x == x ? (below ? VNDF_R(0.0) : result) : x;
 }
 
+// exp(z) for |z| <= log(2) / 2 + 1e-2, strict.
+VNDF_FN VNDF_REAL vndf_impl_exp_near_0(VNDF_REAL z) {
+    VNDF_REAL z2 = z * z;
+#if VNDF_DOUBLE
+    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+#else
+    VNDF_REAL p = VNDF_IMPL_EXP(VNDF_IMPL_P5, VNDF_R);
+#endif
+    return VNDF_FMA(z2, p, z) + VNDF_R(1.0);
+}
+
 // scale * exp(x + low), |low| <= 1e-2, for every scale >= 0 and x: exp(x) itself may leave the range of numbers. 0 below
 // x = -174 / -1400 and where the result is no normal number; as for x = 174 / 1400 above. Accuracy: 2.5 / 2.5.
 VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL scale) {
@@ -155,8 +171,7 @@ VNDF_FN VNDF_REAL vndf_impl_scaled_exp(VNDF_REAL x, VNDF_REAL low, VNDF_REAL sca
     VNDF_REAL shifted = VNDF_FMA(bounded, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
     VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
     VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, bounded)) + low;
-    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
+    VNDF_REAL power = vndf_impl_exp_near_0(z);
     VNDF_REAL result =
         vndf_impl_times_power(scale * power, VNDF_AS_INT(shifted) - VNDF_AS_INT(VNDF_IMPL_ROUNDER));
 #else
@@ -172,8 +187,7 @@ VNDF_FN VNDF_REAL vndf_impl_moderate_exp(VNDF_REAL x) {
     VNDF_REAL shifted = VNDF_FMA(x, VNDF_R(1.44269504088896340736), VNDF_IMPL_ROUNDER);
     VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
     VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, x));
-    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
+    VNDF_REAL power = vndf_impl_exp_near_0(z);
     // k is in the last bits of `shifted`; the others leave by the shift.
     return VNDF_AS_REAL(VNDF_AS_INT(power) + (VNDF_AS_INT(shifted) << VNDF_IMPL_MANTISSA_BITS));
 #else
@@ -194,8 +208,7 @@ VNDF_FN struct vndf_impl_power vndf_impl_exp_power(VNDF_REAL x, VNDF_REAL low, s
     VNDF_REAL k = shifted - VNDF_IMPL_ROUNDER;
     VNDF_REAL z = VNDF_FMA(k, -VNDF_IMPL_LN2_LOW, VNDF_FMA(k, -VNDF_IMPL_LN2_HIGH, bounded)) + low;
 #if VNDF_IMPL_STRICT
-    VNDF_IMPL_EXP(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    VNDF_REAL power = VNDF_FMA(z * z, p, z) + VNDF_R(1.0);
+    VNDF_REAL power = vndf_impl_exp_near_0(z);
 #else
     VNDF_REAL power = VNDF_FAST(exp)(z);
 #endif
@@ -227,24 +240,40 @@ VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) {
 // v = 2 / (2 + x):
 //     erfcx = v ((1 + v) / (2 sqrt(pi)) + v^2 (7 / (16 sqrt(pi)) + v r)),
 //     ierfcx = v^2 (1 / (16 sqrt(pi)) + v (7 / (16 sqrt(pi)) - (1 - v) r)), or (1 / sqrt(pi) - x erfcx) / 2 for small x.
+// As sums whose last term has r, for which all others would wait: erfcx + v^4 r, ierfcx + (v - 1) v^3 r.
+struct vndf_impl_scaled_erfc_terms {
+    VNDF_REAL r, v, v3, erfcx, ierfcx;
+};
+VNDF_FN struct vndf_impl_scaled_erfc_terms vndf_impl_scaled_erfc_terms_at(VNDF_REAL v) {
+    struct vndf_impl_scaled_erfc_terms f;
+#if VNDF_DOUBLE
+    VNDF_REAL z = v - 0.5;
+    VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
+    f.v = v;
+#else
+    // Of a smaller v it does not matter, but its powers would be no normal numbers.
+    VNDF_REAL z = vndf_impl_max(v, 5.9604644775390625e-08f), z2 = z * z, z4 = z2 * z2;
+    VNDF_REAL p = VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_P12, VNDF_R);
+    f.v = z;
+#endif
+    VNDF_REAL v2 = v * v, first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
+    f.r = p;
+    f.v3 = f.v * f.v * f.v;
+    f.erfcx = v * VNDF_FMA(v2, third, VNDF_FMA(v, first, first));
+    f.ierfcx = v2 * VNDF_FMA(v, third, VNDF_R(0.03526184897173476793));
+    return f;
+}
 struct vndf_impl_scaled_erfc {
     VNDF_REAL erfcx, ierfcx;
 };
 VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_REAL v) {
     struct vndf_impl_scaled_erfc f;
-    VNDF_REAL v2 = v * v;
-#if VNDF_DOUBLE
-    VNDF_REAL z = v - 0.5;
-    VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-#else
-    // Of a smaller v it does not matter, but its powers would be no normal numbers.
-    VNDF_REAL z = vndf_impl_max(v, 5.9604644775390625e-08f), z2 = z * z, z4 = z2 * z2;
-    VNDF_REAL p = VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_P12, VNDF_R);
-#endif
-    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
-    f.erfcx = v * VNDF_FMA(v2, VNDF_FMA(v, p, third), VNDF_FMA(v, first, first));
-    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), p, third), VNDF_R(0.03526184897173476793));
-    f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : tail;
+    struct vndf_impl_scaled_erfc_terms t = vndf_impl_scaled_erfc_terms_at(v);
+    VNDF_REAL factor = t.v * t.v3, first = VNDF_R(0.5) * VNDF_1_SQRT_PI;
+    int small = x < VNDF_R(0.4);
+    VNDF_REAL ifactor = small ? VNDF_R(-0.5) * x * factor : t.v3 * (t.v - VNDF_R(1.0));
+    f.erfcx = VNDF_FMA(factor, t.r, t.erfcx);
+    f.ierfcx = VNDF_FMA(ifactor, t.r, small ? VNDF_FMA(VNDF_R(-0.5) * x, t.erfcx, first) : t.ierfcx);
     return f;
 }
 // The same where the last digits count: v with the rounding errors of 2 + x and of the quotient.
@@ -355,6 +384,7 @@ VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
 #undef VNDF_IMPL_NEXT
 #undef VNDF_IMPL_P2
 #undef VNDF_IMPL_P4
+#undef VNDF_IMPL_P5
 #undef VNDF_IMPL_P8
 #undef VNDF_IMPL_P9
 #undef VNDF_IMPL_P12

@@ -68,12 +68,8 @@
     NEXT(0.5000000000000011)
 #else
 // float: error 0.064 * 2^-24
-#define VNDF_IMPL_EXP(FIRST, NEXT) \
-    FIRST(0.00138144963) \
-    NEXT(0.00836870726) \
-    NEXT(0.041668389) \
-    NEXT(0.166665211) \
-    NEXT(0.49999994)
+#define VNDF_IMPL_EXP(poly, c) \
+    poly(c(0.49999994), c(0.166665211), c(0.041668389), c(0.00836870726), c(0.00138144963))
 #endif
 
 // r of erfcx and ierfcx (math.h) in v = 2 / (2 + x), x >= 0; double: in v - 1/2.
@@ -132,11 +128,8 @@
     NEXT(0.9997056766760589)
 #else
 // float: error 5.9e+3 * 2^-24
-#define VNDF_IMPL_LOG1P_ROUGH(FIRST, NEXT) \
-    FIRST(-0.227186143) \
-    NEXT(0.35438472) \
-    NEXT(-0.502044916) \
-    NEXT(0.999705672)
+#define VNDF_IMPL_LOG1P_ROUGH(poly, c) \
+    poly(c(0.999705672), c(-0.502044916), c(0.35438472), c(-0.227186143))
 #endif
 
 // R = erfinv(p) / p, w = -log(1 - p^2): R in z = w - 7/2, w <= 7; then, in float, in z = sqrt(w) - 9/2, w <= 42; in double, R / sqrt(w) in z = 1 / sqrt(w) - 1/4, w <= 40, and in z = 1 / sqrt(w) - 1/10, w <= 744.
