@@ -125,7 +125,7 @@ for function in $all; do
     count=$((count + 1))
     [ $((count % step)) = 0 ] || continue
     case $function in
-    *_lobe | *_lobe_of) "$clvndf" list | grep -q "^$function " && one $function --selftest || one $function ;;
+    *_lobe | *_of) "$clvndf" list | grep -q "^$function " && one $function --selftest || one $function ;;
     *) one $function --selftest ;;
     esac
     # In double one of four, and in the sample none.

@@ -39,8 +39,8 @@
 // everywhere results are finite where those of strict are. It is tested for clang on CPUs (14 or later; so for PoCL) and g++.
 // clang for GPUs and SPIR-V can be told of reassociation alone, under -cl-fast-relaxed-math and -ffast-math, and keeps quick
 // division: there the largest errors of vndf_beckmann_sample_wm_heitz_deon2014 (1.1e-3, density 0.03),
-// vndf_beckmann_slope_cdf_inverse and vndf_ggx_invert_wi_conic2026 (0.01) are more, since a last digit of a quotient may decide
-// over the branch or be what is left of a difference; all else holds. Of other compilers nothing is known: `clvndf policies
+// vndf_beckmann_slope_cdf_inverse, vndf_ggx_invert_wi_conic2026 (0.01), vndf_tangent and vndf_tangent_along (0.02) are more,
+// since a last digit of a quotient may decide over the branch or be what is left of a difference; all else holds. Of other compilers nothing is known: `clvndf policies
 // --flags` measures.
 #ifndef VNDF_CONFIG_H
 #define VNDF_CONFIG_H

@@ -34,7 +34,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(struct vndf_ggx_lobe v, 
     // The denominator is 0 where nothing is visible: a normal on the horizon.
     VNDF_REAL other = VNDF_FMA(t, sine, -t_i * z);
     // Towards the horizon Q and P differ by little, and their terms cancel: there t - z R, of two equal signs.
-    int level = z >= VNDF_R(0.0) && z < VNDF_R(0.0625);
+    int level = vndf_impl_abs(z) < VNDF_R(0.0625);
     VNDF_REAL factor = level ? VNDF_FMA(-z, big_r, t) : VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r);
     VNDF_REAL conjugate = half_p_plus * factor / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (t < VNDF_R(0.0)) != (z < VNDF_R(0.0));

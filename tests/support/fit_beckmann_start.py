@@ -12,7 +12,7 @@ from scipy.special import erfcx
 
 ROOT_PI = np.sqrt(np.pi)
 EPSILON = 2.0**-24
-DEGREE_NU, DEGREE_S = 4, 4
+DEGREES_NU = 4, 4, 4, 3, 3  # of the polynomials in nu that belong to s^0, s^1, ...
 EDGE_FRONT, EDGE_BEHIND = 0.27, 0.1  # below these (behind: times s) y is that of the edge, not of the polynomial
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
 
@@ -119,7 +119,7 @@ class Side:
         return np.where(np.isfinite(error), error, 1e6)
 
     def fit(self, rounds=600):
-        powers = [(i, j) for j in range(DEGREE_S + 1) for i in range(DEGREE_NU + 1)]
+        powers = [(i, j) for j, degree in enumerate(DEGREES_NU) for i in range(degree + 1)]
         basis = np.stack([self.nu**i * self.s**j for i, j in powers], -1).reshape(-1, len(powers))
         size = np.linalg.norm(basis, axis=0)
         target = (self.x if self.front else self.y / self.s).ravel()
@@ -134,7 +134,7 @@ class Side:
             pace = (0.3, 0.1, 0.03)[3 * k // rounds]
             weight = np.where(inside, weight * (1 - pace + 2 * pace * (error / error.max()) ** 0.2), 1e-6)
             weight = np.where(inside, weight / weight.max(), 1e-6)
-        return best, coefficients.reshape(DEGREE_S + 1, DEGREE_NU + 1)
+        return best, np.split(coefficients, np.cumsum(np.array(DEGREES_NU) + 1)[:-1])
 
 
 def fit_edge():

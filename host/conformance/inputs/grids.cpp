@@ -223,6 +223,16 @@ std::vector<Point> grazing_points() {
     return points;
 }
 
+// A view direction from just behind the horizon, with the last values of u2 all round: heights of normals are all but 0.
+std::vector<Point> horizon_points() {
+    std::vector<Point> points;
+    for (int part = 0; part < 24; ++part)
+        for (const double last : {0x1p-24, 0x1p-22})
+            points.push_back(make_point(direction(-1e-20, .7), {1e-4, .1}, {1, 0}, {0, 0, 1},
+                                        {(part + .37) / 24, 1 - last}, 1.5));
+    return points;
+}
+
 // Indices of refraction next to 1, where refraction goes straight on and the half vector wo + eta wi is all but nothing:
 // refracted rays (refract_some) and, beside each, the way back of wo but for a few last bits, of float and of double.
 std::vector<Point> straight_points() {
@@ -285,7 +295,7 @@ std::vector<Point> guard_points(const Function& function) {
     if (uses(function, {"n_x"})) axes = {{0, 0, 1}, direction(.4, -2), direction(-.9, .4)};
     if (uses(function, {"u1"}))
         for (const Direction& n : axes)
-            for (const auto& some : {silhouette_points(n), grazing_points()})
+            for (const auto& some : {silhouette_points(n), grazing_points(), horizon_points()})
                 points.insert(points.end(), some.begin(), some.end());
     if (function.kind == Kind::sampler && function.result == "WI")
         for (const Point& point : rim_points()) points.push_back(point);

@@ -63,10 +63,10 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
     lobe.rcp_l = tilted ? up * rcp : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
-    VNDF_REAL steep = vndf_impl_min(vndf_impl_abs(wo.z) * up * rcp, VNDF_IMPL_STEEP_LIMIT);
+    VNDF_REAL height = vndf_impl_abs(wo.z) * up, steep = vndf_impl_min(height * rcp, VNDF_IMPL_STEEP_LIMIT);
     lobe.beyond = vndf_impl_max(steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
     lobe.square = vndf_impl_beckmann_square(wo, alpha_x, alpha_y);
-    lobe.slopes = vndf_impl_beckmann_incidence(steep, vndf_impl_abs(wo.z) * up, root, wo.z >= VNDF_R(0.0));
+    lobe.slopes = vndf_impl_beckmann_incidence(steep, height, root, wo.z >= VNDF_R(0.0));
     return lobe;
 }
 

@@ -97,7 +97,8 @@ VNDF_FN VNDF_REAL vndf_impl_edge_integral(VNDF_REAL z, VNDF_REAL w) {
 VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
                                                              VNDF_REAL q) {
     struct vndf_impl_visible_slope r;
-    VNDF_REAL size = VNDF_SQRT(vndf_impl_max(-vndf_impl_rough_log(VNDF_R(4.0) * u * q), VNDF_R(0.0)));
+    VNDF_REAL size = VNDF_SQRT(vndf_impl_max(
+        vndf_impl_rough_minus_log(VNDF_FMA(VNDF_R(-4.0) * u, u, VNDF_R(4.0) * u)), VNDF_R(0.0)));
     VNDF_REAL nu = u < VNDF_R(0.5) ? -size : size, s = i.s;
     int front = i.front;
     VNDF_REAL nu2 = nu * nu, s2 = s * s;
@@ -111,14 +112,17 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
     VNDF_REAL beside = close * VNDF_FMA(VNDF_R(-0.5) * cot, close, VNDF_R(1.0));
 
 #define VNDF_IMPL_SIDE(f, b) (front ? VNDF_R(f) : VNDF_R(b))
-#define VNDF_IMPL_IN_NU(a, b, c, d, e) VNDF_FMA(VNDF_FMA(VNDF_FMA(e, nu, d), nu, c), nu2, VNDF_FMA(b, nu, a))
-    VNDF_REAL c0 = VNDF_IMPL_START_0(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
-    VNDF_REAL c1 = VNDF_IMPL_START_1(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
-    VNDF_REAL c2 = VNDF_IMPL_START_2(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
-    VNDF_REAL c3 = VNDF_IMPL_START_3(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
-    VNDF_REAL c4 = VNDF_IMPL_START_4(VNDF_IMPL_IN_NU, VNDF_IMPL_SIDE);
+#define VNDF_IMPL_CUBIC(a, b, c, d) VNDF_FMA(VNDF_FMA(d, nu, c), nu2, VNDF_FMA(b, nu, a))
+#define VNDF_IMPL_QUARTIC(a, b, c, d, e) \
+    VNDF_FMA(VNDF_FMA(VNDF_FMA(e, nu, d), nu, c), nu2, VNDF_FMA(b, nu, a))
+    VNDF_REAL c0 = VNDF_IMPL_START_0(VNDF_IMPL_QUARTIC, VNDF_IMPL_SIDE);
+    VNDF_REAL c1 = VNDF_IMPL_START_1(VNDF_IMPL_QUARTIC, VNDF_IMPL_SIDE);
+    VNDF_REAL c2 = VNDF_IMPL_START_2(VNDF_IMPL_QUARTIC, VNDF_IMPL_SIDE);
+    VNDF_REAL c3 = VNDF_IMPL_START_3(VNDF_IMPL_CUBIC, VNDF_IMPL_SIDE);
+    VNDF_REAL c4 = VNDF_IMPL_START_4(VNDF_IMPL_CUBIC, VNDF_IMPL_SIDE);
 #undef VNDF_IMPL_SIDE
-#undef VNDF_IMPL_IN_NU
+#undef VNDF_IMPL_CUBIC
+#undef VNDF_IMPL_QUARTIC
     VNDF_REAL p = VNDF_FMA(VNDF_FMA(VNDF_FMA(c4, s, c3), s, c2), s2, VNDF_FMA(c1, s, c0));
 
     VNDF_REAL inner = vndf_impl_max(VNDF_FMA(front ? VNDF_R(-1.0) : s, p, i.plateau), least);
@@ -128,55 +132,58 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
     return r;
 }
 
-// A C e^(x^2) next to x, in front with y = a - x put in; for x > 0 less a e^(x^2). From the polynomial of erfcx and ierfcx,
-// r, which is what all waits for: weight E / 2 + I, of which r has one factor.
+// A C e^(x^2) next to x, in front with y = a - x put in; for x > 0 less a e^(x^2): weight E / 2 + I, with E and I by math.h's
+// formula, but as a sum of which the last term has r, since all wait for it.
 VNDF_FN VNDF_REAL vndf_impl_slope_mass(struct vndf_impl_incidence_slopes i,
-                                       struct vndf_impl_visible_slope r) {
-    VNDF_REAL size = vndf_impl_abs(r.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
-    int right = r.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
-    struct vndf_impl_scaled_erfc_terms f = vndf_impl_scaled_erfc_terms_at(v);
+                                       struct vndf_impl_visible_slope at) {
+    VNDF_REAL size = VNDF_STD(fabs)(at.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
+    int right = at.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
+    VNDF_REAL r = vndf_impl_scaled_erfc_rest(v), v2 = v * v, v3 = v2 * v;
+    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
     // For small x behind the surface I is (1 / sqrt(pi) - x E) / 2.
-    VNDF_REAL weight = front ? (right ? -i.a : i.a) : (tail ? r.y : r.y - size), part = VNDF_R(0.5) * weight;
-    VNDF_REAL rest = VNDF_FMA(part, f.erfcx, tail ? f.ierfcx : VNDF_R(0.5) * VNDF_1_SQRT_PI);
-    return VNDF_FMA(VNDF_FMA(part * f.v, f.v3, tail ? f.v3 * (f.v - VNDF_R(1.0)) : VNDF_R(0.0)), f.r, rest);
+    VNDF_REAL weight = VNDF_R(0.5) * (front ? (right ? -i.a : i.a) : (tail ? at.y : at.y - size));
+    VNDF_REAL erfcx = v * VNDF_FMA(v2, third, VNDF_FMA(v, first, first));
+    VNDF_REAL ierfcx = v2 * VNDF_FMA(v, third, VNDF_R(0.03526184897173476793));
+    VNDF_REAL factor = VNDF_FMA(weight * v, v3, tail ? v3 * (v - VNDF_R(1.0)) : VNDF_R(0.0));
+    return VNDF_FMA(factor, r, VNDF_FMA(weight, erfcx, tail ? ierfcx : first));
 }
 
 // One step towards the slope of mass u, of fifth order in Z = y^2: A C' = -e^(-x^2) / (2 sqrt(pi)) there, without a zero at
 // the edge, and (log A C')' = x / y. With v = 2 sqrt(pi) (A C - A u) e^(x^2) / y, the ratios of derivatives are powers of
-// k = v x and of -a v^2 / (2 y). Processors wait for this chain more than they compute: what it needs last comes last.
+// k = v x and of -a v^2 / (2 y). Processors wait for this chain longer than they
+// compute: its order is that of what is waited for, and the fastest of those tried.
 VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_incidence_slopes i, VNDF_REAL u,
                                                             VNDF_REAL q, struct vndf_impl_visible_slope r) {
     VNDF_REAL y = r.y, x = r.x;
     int right = x > VNDF_R(0.0), front = i.front;
-    VNDF_REAL target = right ? VNDF_FMA(-q, i.plateau, u * i.hidden) : u * i.area;
     VNDF_REAL e = vndf_impl_moderate_exp((front ? x : y) * (front ? x : VNDF_R(2.0) * i.a + y));
-    VNDF_REAL rcp = VNDF_R(1.0) / y;
+    VNDF_REAL target = VNDF_FMA(right ? -q : u, i.plateau, u * i.hidden);
     // Next to the edge the same from q, since masses near 1 are nearly equal.
     VNDF_REAL square = y * y, lean = VNDF_R(-2.0) * x * y;
-    int edge = y <= VNDF_R(0.25) && vndf_impl_abs(lean) <= VNDF_R(0.4);
+    int edge = y <= VNDF_R(0.25) && VNDF_STD(fabs)(lean) <= VNDF_R(0.4);
     VNDF_REAL above =
         square * vndf_impl_edge_integral(edge ? lean : VNDF_R(0.0), edge ? square : VNDF_R(0.0));
     VNDF_REAL mass = vndf_impl_slope_mass(i, r);
+    VNDF_REAL rcp = VNDF_R(1.0) / y;
     VNDF_REAL excess =
         VNDF_FMA(edge ? q * i.area : -target, e, edge ? VNDF_R(-0.5) * VNDF_1_SQRT_PI * above : mass);
 
     VNDF_REAL v = VNDF_R(2.0) * VNDF_SQRT_PI * rcp * excess, v2 = v * v, k = v * x, k2 = k * k;
-    VNDF_REAL cot = front ? i.a : -i.a, second = VNDF_R(-0.5) * cot * rcp,
-              third = VNDF_R(-1.5) * second * rcp;
-    VNDF_REAL l = second * v2, m = third * v2 * v;
+    VNDF_REAL cot = front ? i.a : -i.a, second = VNDF_R(-0.5) * cot * rcp;
+    VNDF_REAL l = second * v2, m = VNDF_R(-0.0625) * second * rcp * (v2 * v);
     VNDF_REAL high = VNDF_FMA(l, VNDF_R(0.16666666666666666667),
                               VNDF_FMA(k2, VNDF_R(0.16666666666666666667), VNDF_R(1.0) + k));
     VNDF_REAL powers = VNDF_FMA(VNDF_FMA(k, VNDF_R(0.041666666666666666667), VNDF_R(0.58333333333333333333)),
                                 k2, VNDF_FMA(k, VNDF_R(1.5), VNDF_R(1.0)));
-    VNDF_REAL low = VNDF_FMA(m, VNDF_R(0.041666666666666666667),
-                             VNDF_FMA(l, VNDF_FMA(k, VNDF_R(0.125), VNDF_R(0.33333333333333333333)), powers));
-    // Z grows by n / low of its size, never as far as to the edge; its root by Pade's approximant.
+    VNDF_REAL low = VNDF_FMA(l, VNDF_FMA(k, VNDF_R(0.125), VNDF_R(0.33333333333333333333)), powers) + m;
+    // Z grows by n / low of its size, never as far as to the edge; its root by Pade's approximant, y (1 + n / low +
+    // 3/16 (n / low)^2) over the sum below, whose factors have (3 +- sqrt(5)) / 8.
     VNDF_REAL n = vndf_impl_max(v * rcp * high, -low);
-    VNDF_REAL over = y * n * VNDF_FMA(VNDF_R(0.25), n, VNDF_R(0.5) * low);
-    VNDF_REAL under = VNDF_FMA(low, VNDF_FMA(VNDF_R(0.75), n, low), VNDF_R(0.0625) * n * n);
-    VNDF_REAL shift = over / under;
-    r.y = y + shift;
-    r.x = x - shift;
+    VNDF_REAL under =
+        VNDF_FMA(VNDF_R(0.65450849718747371205), n, low) * VNDF_FMA(VNDF_R(0.095491502812526287949), n, low);
+    VNDF_REAL twice = y * n * VNDF_FMA(VNDF_R(0.5), n, low) / under;
+    r.y = VNDF_FMA(VNDF_R(0.5), twice, y);
+    r.x = VNDF_FMA(VNDF_R(-0.5), twice, x);
     return r;
 }
 
@@ -240,7 +247,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     struct vndf_impl_sample m;
     // Two forms: alike they would be packed (impl/stretch.h).
     VNDF_REAL gx = VNDF_FMA(alpha_x * ex, t, -(alpha_x * ey * y)),
-              gy = VNDF_FMA(alpha_y * ey, t, alpha_y * ex * y);
+              gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, VNDF_R(1.0))), length = VNDF_SQRT(length2);
     VNDF_REAL rcp = VNDF_R(1.0) / length;
     m.x = gx * rcp;

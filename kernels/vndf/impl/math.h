@@ -55,7 +55,7 @@ VNDF_BEGIN
 #endif
 
 VNDF_FN VNDF_REAL vndf_impl_abs(VNDF_REAL x) {
-    return VNDF_STD(fabs)(x);
+    return x < VNDF_R(0.0) ? -x : x;
 }
 VNDF_FN VNDF_REAL vndf_impl_min(VNDF_REAL x, VNDF_REAL limit) {
     return x > limit ? limit : x;
@@ -126,9 +126,9 @@ VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
     return vndf_impl_log(x);
 #endif
 }
-// The same to 4e-4 of its size, with every policy.
-VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
-    VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440)), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
+// -log(x) to 4e-4 of its size, with every policy, for normal x > 0.
+VNDF_FN VNDF_REAL vndf_impl_rough_minus_log(VNDF_REAL x) {
+    VNDF_INT low = VNDF_AS_INT(VNDF_R(0.70710678118654752440)), bits = VNDF_AS_INT(x) - low;
     VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL z = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
@@ -137,7 +137,7 @@ VNDF_FN VNDF_REAL vndf_impl_rough_log(VNDF_REAL x) {
 #else
     VNDF_REAL z2 = z * z, p = VNDF_IMPL_LOG1P_ROUGH(VNDF_IMPL_P4, VNDF_R);
 #endif
-    return VNDF_FMA(k, VNDF_R(0.69314718055994530942), z * p);
+    return VNDF_FMA(k, VNDF_R(-0.69314718055994530942), -z * p);
 }
 
 // x 2^exponent for x >= 0: 0 where that is no normal number, and at most the largest finite one.
@@ -240,40 +240,27 @@ VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) {
 // v = 2 / (2 + x):
 //     erfcx = v ((1 + v) / (2 sqrt(pi)) + v^2 (7 / (16 sqrt(pi)) + v r)),
 //     ierfcx = v^2 (1 / (16 sqrt(pi)) + v (7 / (16 sqrt(pi)) - (1 - v) r)), or (1 / sqrt(pi) - x erfcx) / 2 for small x.
-// As sums whose last term has r, for which all others would wait: erfcx + v^4 r, ierfcx + (v - 1) v^3 r.
-struct vndf_impl_scaled_erfc_terms {
-    VNDF_REAL r, v, v3, erfcx, ierfcx;
-};
-VNDF_FN struct vndf_impl_scaled_erfc_terms vndf_impl_scaled_erfc_terms_at(VNDF_REAL v) {
-    struct vndf_impl_scaled_erfc_terms f;
+VNDF_FN VNDF_REAL vndf_impl_scaled_erfc_rest(VNDF_REAL v) {
 #if VNDF_DOUBLE
     VNDF_REAL z = v - 0.5;
     VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
-    f.v = v;
 #else
     // Of a smaller v it does not matter, but its powers would be no normal numbers.
     VNDF_REAL z = vndf_impl_max(v, 5.9604644775390625e-08f), z2 = z * z, z4 = z2 * z2;
     VNDF_REAL p = VNDF_IMPL_SCALED_ERFC(VNDF_IMPL_P12, VNDF_R);
-    f.v = z;
 #endif
-    VNDF_REAL v2 = v * v, first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
-    f.r = p;
-    f.v3 = f.v * f.v * f.v;
-    f.erfcx = v * VNDF_FMA(v2, third, VNDF_FMA(v, first, first));
-    f.ierfcx = v2 * VNDF_FMA(v, third, VNDF_R(0.03526184897173476793));
-    return f;
+    return p;
 }
 struct vndf_impl_scaled_erfc {
     VNDF_REAL erfcx, ierfcx;
 };
 VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_REAL v) {
     struct vndf_impl_scaled_erfc f;
-    struct vndf_impl_scaled_erfc_terms t = vndf_impl_scaled_erfc_terms_at(v);
-    VNDF_REAL factor = t.v * t.v3, first = VNDF_R(0.5) * VNDF_1_SQRT_PI;
-    int small = x < VNDF_R(0.4);
-    VNDF_REAL ifactor = small ? VNDF_R(-0.5) * x * factor : t.v3 * (t.v - VNDF_R(1.0));
-    f.erfcx = VNDF_FMA(factor, t.r, t.erfcx);
-    f.ierfcx = VNDF_FMA(ifactor, t.r, small ? VNDF_FMA(VNDF_R(-0.5) * x, t.erfcx, first) : t.ierfcx);
+    VNDF_REAL v2 = v * v, r = vndf_impl_scaled_erfc_rest(v);
+    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
+    f.erfcx = v * VNDF_FMA(v2, VNDF_FMA(v, r, third), VNDF_FMA(v, first, first));
+    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), r, third), VNDF_R(0.03526184897173476793));
+    f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : tail;
     return f;
 }
 // The same where the last digits count: v with the rounding errors of 2 + x and of the quotient.

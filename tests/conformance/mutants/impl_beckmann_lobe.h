@@ -1,9 +1,10 @@
 // Seeded mistakes in impl/beckmann_lobe.h: rows of Mutant (mutants.h).
 {"2014: the same threshold of Beckmann",
  "impl/beckmann_lobe.h",
- "lobe.slopes = vndf_impl_beckmann_incidence(steep, wo.z >= VNDF_R(0.0));",
- "lobe.slopes = vndf_impl_beckmann_incidence(steep > VNDF_R(223.6) ? VNDF_IMPL_STEEP_LIMIT : steep, wo.z >= "
- "VNDF_R(0.0));",
+ "lobe.slopes = vndf_impl_beckmann_incidence(steep, height, root, wo.z >= VNDF_R(0.0));",
+ "lobe.slopes = vndf_impl_beckmann_incidence(steep > VNDF_R(223.6) ? VNDF_IMPL_STEEP_LIMIT : steep, height, "
+ "root, "
+ "wo.z >= VNDF_R(0.0));",
  "vndf_beckmann_sample_wm_heitz_deon2014",
  {"pointwise, front"}},
     {"Beckmann: a half vector that faces away without the rounding of its exponent",
