@@ -107,7 +107,9 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
     stages_.launch("generate", count, {&view_, word_buffer_, first, stride_, path_[0], slot_[0], light_});
     for (unsigned bounce = 0; count != 0; ++bounce) {
         const auto path = path_[side], slot = slot_[side];
-        stages_.launch("traverse", count, {nodes_, leaves_, path, count, stride_, hit_, triangle_});
+        const std::uint32_t packet = bounce == 0 ? stages_.packet() : 1;
+        stages_.launch(packet > 1 ? "packets" : "traverse", (count + packet - 1) / packet,
+                       {nodes_, leaves_, path, count, stride_, hit_, triangle_});
         stages_.launch("leave", count, {&sky_, path, triangle_, slot, count, stride_, light_});
         if (bounce == settings_.max_bounces) return;
         const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce,
