@@ -13,10 +13,10 @@ runtime::ProgramOptions options_of(const char* root, const std::string& switches
     return options;
 }
 
-// On a CPU as many as measured best; on a GPU work-items run together as it is.
+// On a CPU more of them gain nothing, and lose over small triangles; on a GPU rays run together as it is.
 unsigned packet_of(const runtime::Device& device, const Switches& switches) {
     if (switches.packet != 0) return switches.packet;
-    return (device.type & CL_DEVICE_TYPE_CPU) != 0 ? 16 : 1;
+    return (device.type & CL_DEVICE_TYPE_CPU) != 0 ? 8 : 1;
 }
 
 // Two programs, so that another choice of effects compiles the stages that know them alone.

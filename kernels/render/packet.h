@@ -7,7 +7,7 @@
 
 // Rays of a packet, a multiple of eight; 1: there are no packets.
 #ifndef VNDF_PACKET
-#define VNDF_PACKET 16
+#define VNDF_PACKET 8
 #endif
 
 #if VNDF_PACKET > 1

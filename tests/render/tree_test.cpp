@@ -1,6 +1,7 @@
 // Rays through the tree meet what they meet without one, to the bit.
 #include <random>
 
+#define VNDF_PACKET 16
 #include "kernels/render/packet.h"
 #include "render/tree.h"
 #include "support/catch.h"
