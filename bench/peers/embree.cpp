@@ -97,9 +97,12 @@ class Comparison {
 
     std::string json() {
         const Rays camera = camera_rays(), diffuse = diffuse_rays(camera);
-        return fmt::format("{{\"scene\": \"{}\", \"triangles\": {},\n {},\n {},\n {},\n {}}}", scene_.name,
-                           scene_.triangles.size(), traced("camera rays in packets", camera, 8),
-                           traced("camera rays", camera, 1), traced("diffuse rays", diffuse, 1), rendered());
+        std::string text =
+            fmt::format("{{\"scene\": \"{}\", \"triangles\": {}", scene_.name, scene_.triangles.size());
+        text += ",\n " + traced("camera rays in packets", camera, 8);
+        text += ",\n " + traced("camera rays", camera, 1);
+        text += ",\n " + traced("diffuse rays", diffuse, 1);
+        return text + ",\n " + rendered() + "}";
     }
 
   private:
@@ -253,10 +256,11 @@ int main(int argc, char** argv) {
         parts.push_back(bench::Comparison(scene, rounds).json());
     }
     const runtime::Device device = runtime::choose_device().device;
+    double load = 0;
+    getloadavg(&load, 1);
     std::ofstream(argv[1]) << fmt::format(
-        "{{\"device\": \"{}\", \"platform\": \"{}\", \"threads\": {}, \"embree\": \"{}\", \"rounds\": {}, "
-        "\"scenes\": "
-        "[\n{}\n]}}\n",
-        device.name, device.platform_version, thread_count(), RTC_VERSION_STRING, rounds,
+        "{{\"device\": \"{}\", \"platform\": \"{}\", \"threads\": {}, \"load\": {:.1f}, \"embree\": \"{}\", "
+        "\"rounds\": {}, \"scenes\": [\n{}\n]}}\n",
+        device.name, device.platform_version, thread_count(), load, RTC_VERSION_STRING, rounds,
         fmt::join(parts, ",\n"));
 }

@@ -135,8 +135,8 @@ def difference(a, b):
     """The relative root mean square difference of two pairs of images beyond their noise, and what it is at most: a product
     of two differences without a common error has the mean of the square of what they share."""
     product = (a[0] - b[0]) * (a[1] - b[1])
-    mean, error = product.mean(), product.std() / math.sqrt(product.size)
-    return [float(np.sqrt(max(0, square)) / b[0].mean()) for square in (mean, mean + 3 * error)]
+    mean, error = max(0, product.mean()), product.std() / math.sqrt(product.size)
+    return [float(np.sqrt(square) / b[0].mean()) for square in (mean, mean + 3 * error)]
 
 
 def noise(pair):

@@ -168,7 +168,7 @@ Tree build_tree(const Scene& scene) {
     arguments.maxBranchingFactor = width;
     arguments.maxDepth = VNDF_TREE_DEPTH - 2;
     arguments.sahBlockSize = width;
-    arguments.minLeafSize = width / 2;
+    arguments.minLeafSize = width;
     arguments.maxLeafSize = width;
     arguments.primitives = primitives.data();
     arguments.primitiveCount = primitives.size();
