@@ -25,6 +25,8 @@ RESULTS = ROOT / "bench/results/pocl-3.1.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
+EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
+MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
 
 
 # --- The registry ---
@@ -259,6 +261,25 @@ def peer_densities(e):
     return "; ".join([f"{e['density_p99']:.0e}", *faults])
 
 
+RAYS = ("camera rays in packets", "camera rays", "diffuse rays", "whole render")
+
+
+def embree_peer():
+    for scene in json.loads(EMBREE.read_text("utf-8"))["scenes"]:
+        yield (f"{scene['scene']}: {scene['triangles']}",
+               *(f"{scene[what]['speed']:.2f}, {scene[what]['by processor time']:.2f}" for what in RAYS))
+
+
+def mitsuba_render():
+    result = json.loads(MITSUBA_RENDER.read_text("utf-8"))
+    for masking, (value, most) in result["difference, and at most"].items():
+        yield f"difference with --masking {masking}, beyond noise", f"{100 * value:.2f} %, at most {100 * most:.2f} %"
+    for what in ("speed", "speed to equal error"):
+        yield f"{what}, times Mitsuba's: by the clock, by processors", ", ".join(f"{x:.2f}" for x in result[what].values())
+    fastest = result["fastest, Msamples/s"]
+    yield "fastest of the rounds, Msamples/s: ours, Mitsuba's", f"{fastest['clvndf']:.1f}, {fastest['mitsuba']:.1f}"
+
+
 STREAM, CACHED, COMPUTE, PUBLISHED = (
     ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
@@ -284,6 +305,8 @@ TABLES = {
     "peer_times": lambda build: table(["sampler", "streaming", "cached", "with density, streaming", "with density, cached",
                                        "times Mitsuba's", "A/A", "first call, s"], peer_times()),
     "peer_angles": lambda build: peer_errors(peer_angles),
+    "embree_peer": lambda build: table(["triangles", *RAYS], embree_peer()),
+    "mitsuba_render": lambda build: table(["measure", "value"], mitsuba_render()),
     "peer_densities": lambda build: peer_errors(peer_densities),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),

@@ -10,11 +10,12 @@ import json
 import os
 import pathlib
 import random
-import re
 import subprocess
 import sys
 import tempfile
 import time
+
+from newest_llvm import cannot, newest_llvm
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OPTIONS = "-cl-std=CL1.2 -DVNDF_REAL=float -DVNDF_MATH=strict -cl-fp32-correctly-rounded-divide-sqrt"
@@ -27,19 +28,6 @@ INPUTS = ("as timed", "α 10⁻³", "α 10⁻⁵", "cos θ 10⁻⁶ to 10⁻²",
 JUDGED = 1 << 13  # samples of each of these
 IDLE_S = 0.02  # Dr.Jit's threads spin half as long after a launch, and would double the time of whoever comes next
 EPS = 2.0 ** -24
-
-
-def cannot(why):
-    print(f"{os.path.basename(__file__)}: {why}", file=sys.stderr)
-    sys.exit(2)
-
-
-def newest_llvm():
-    paths = itertools.chain(*(pathlib.Path("/usr").glob(f"{at}/libLLVM*") for at in ("lib*", "lib/*", "lib/*/lib")))
-    found = {int(version[1]): path for path in paths if (version := re.match(r"libLLVM(?:-|\.so\.)(\d+)", path.name))}
-    if max(found, default=0) < 17:  # Dr.Jit refuses 14; 15 and 16 abort while they compile Mitsuba's GGX
-        cannot("no LLVM library of version 17 or later: install libllvm19 or set DRJIT_LIBLLVM_PATH")
-    return str(found[max(found)])
 
 
 caches = tempfile.TemporaryDirectory()  # of compilers: empty, so that first calls compile

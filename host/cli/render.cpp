@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Render {
     std::string output = "render.png", size = "960x340", math = "strict", device, orbs = "roughness",
-                effects = "auto";
+                sky = "day", effects = "auto";
     render::Choices choices;
     CLI::Option* sampler = nullptr;
     bool explain = false;
@@ -114,6 +114,12 @@ render::Choices choices_of(const Render& r) {
     return choices;
 }
 
+render::Scene scene_of(const Render& r) {
+    render::Scene scene = render::orbs(r.orbs);
+    if (r.sky == "white") scene.sky = render::constant_sky(1);
+    return scene;
+}
+
 void run(const Render& r, Common& common) {
     const Clock::time_point start = Clock::now();
     render::Settings settings;
@@ -122,7 +128,7 @@ void run(const Render& r, Common& common) {
     settings.seed = common.seed;
     settings.random = r.choices.random == "philox" ? render::Random::philox : render::Random::sobol;
     render::require_image_name(r.output);
-    const render::Scene scene = render::orbs(r.orbs);
+    const render::Scene scene = scene_of(r);
     const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
     const render::Switches switches = render::switches(scene, effects, choices_of(r));
     const runtime::Device device = [&] {
@@ -208,6 +214,8 @@ void add_render(CLI::App& app, Common& common) {
     command->add_option("--orbs", r->orbs, "what the orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
         ->capture_default_str();
+    choice("--sky", r->sky, "day: blue, with a sun; white: as bright everywhere, to compare with others",
+           {"day", "white"});
     add_device(*command, r->device);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }

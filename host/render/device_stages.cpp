@@ -13,11 +13,20 @@ runtime::ProgramOptions options_of(const char* root, const std::string& switches
     return options;
 }
 
+// On a CPU more of them gain nothing, and lose over small triangles; on a GPU rays run together as it is.
+unsigned packet_of(const runtime::Device& device, const Switches& switches) {
+    if (switches.packet != 0) return switches.packet;
+    return (device.type & CL_DEVICE_TYPE_CPU) != 0 ? 8 : 1;
+}
+
 // Two programs, so that another choice of effects compiles the stages that know them alone.
 class DeviceStages final : public Stages {
   public:
     DeviceStages(const runtime::Device& device, runtime::Math math, const Switches& switches, bool timed)
-        : program_(device, math, runtime::Real::f32, options_of("kernels/render/paths.cl", switches.paths)),
+        : packet_(packet_of(device, switches)),
+          program_(device, math, runtime::Real::f32,
+                   options_of("kernels/render/paths.cl",
+                              fmt::format("{} -DVNDF_PACKET={}", switches.paths, packet_))),
           materials_(program_, math, runtime::Real::f32,
                      options_of("kernels/render/materials.cl", switches.paths + ' ' + switches.materials)),
           timed_(timed) {}
@@ -70,12 +79,14 @@ class DeviceStages final : public Stages {
     }
 
     std::string describe() const override { return program_.device().label(); }
+    unsigned packet() const override { return packet_; }
 
   private:
     cl::Kernel kernel(const std::string& name) const {
         return (program_.has_kernel(name) ? program_ : materials_).kernel(name);
     }
 
+    unsigned packet_;
     runtime::Program program_, materials_;
     bool timed_;
     std::map<std::string, double> seconds_;

@@ -39,6 +39,8 @@ class Stages {
     // Runs vndf_render_<stage> on at least `items` items, in whole groups.
     virtual void launch(const std::string& stage, std::size_t items, Arguments arguments) = 0;
     virtual std::string describe() const = 0;
+    // Camera rays that an item of the stage `packets` takes; 1: there is no such stage.
+    virtual unsigned packet() const = 0;
     // Spent in a stage so far, where stages are timed.
     virtual double seconds(const std::string&) const { return 0; }
 
@@ -53,13 +55,15 @@ class Stages {
 // "-DVNDF_..." for the compiler: for all stages, and for those that know materials beside.
 struct Switches {
     std::string paths, materials;
+    unsigned packet =
+        0;  // camera rays traced together, 1 or a multiple of eight; 0: what the device does best
 };
 
 // On a device. timed: each stage is waited for, and its time kept.
 std::unique_ptr<Stages> device_stages(const runtime::Device& device, runtime::Math math,
                                       const Switches& switches, bool timed = false);
 
-// The same text as C++, with every effect; strict, Sobol.
-std::unique_ptr<Stages> cpp_stages();
+// The same text as C++, with every effect, for values of VNDF_NDF and VNDF_FRESNEL; strict, Sobol.
+std::unique_ptr<Stages> cpp_stages(const std::string& ndf, const std::string& fresnel);
 
 }  // namespace vndf::render

@@ -91,6 +91,10 @@ class Flattener {
             at[VNDF_NODE_HIGH_X + 8 * axis] = box.high[axis];
         }
         at[VNDF_NODE_CHILD] = std::bit_cast<float>(child);
+        if (child >= 0) return;
+        float* const leaf = &tree_.leaves[VNDF_LEAF_SIZE * static_cast<std::size_t>(~child)];
+        std::copy_n(box.low.begin(), 3, leaf + VNDF_LEAF_LOW);
+        std::copy_n(box.high.begin(), 3, leaf + VNDF_LEAF_HIGH);
     }
 
   private:
@@ -164,7 +168,7 @@ Tree build_tree(const Scene& scene) {
     arguments.maxBranchingFactor = width;
     arguments.maxDepth = VNDF_TREE_DEPTH - 2;
     arguments.sahBlockSize = width;
-    arguments.minLeafSize = width / 2;
+    arguments.minLeafSize = width;
     arguments.maxLeafSize = width;
     arguments.primitives = primitives.data();
     arguments.primitiveCount = primitives.size();

@@ -16,7 +16,8 @@
 #define VNDF_RENDER_TO(type) __global type*
 #define VNDF_RENDER_ITEM ((uint)get_global_id(0))
 #define VNDF_RENDER_8(x) ((float8)(x))
-#define VNDF_RENDER_ANY(mask) any(mask)
+#define VNDF_RENDER_BYTES(mask) as_ulong(convert_char8(mask))
+#define VNDF_RENDER_CLZ(x) ((int)clz(x))
 #define VNDF_RENDER_BITS(x) as_uint(x)
 // After the last header of vndf/: each leaves contraction as the build options have it.
 #define VNDF_RENDER_UNCONTRACTED _Pragma("OPENCL FP_CONTRACT OFF")
@@ -33,21 +34,25 @@
 #define VNDF_RENDER_TO(type) type*
 #define VNDF_RENDER_ITEM vndf_render_item
 #define VNDF_RENDER_8(x) (float8{} + (x))
-#define VNDF_RENDER_ANY(mask) vndf_render_any(mask)
+#define VNDF_RENDER_BYTES(mask) vndf_render_bytes(mask)
+#define VNDF_RENDER_CLZ(x) __builtin_clzll(x)
 #define VNDF_RENDER_BITS(x) vndf_render_bits(x)
 #define VNDF_RENDER_UNCONTRACTED
 
 typedef uint32_t uint;
+typedef uint64_t ulong;
 typedef float float8 __attribute__((vector_size(32)));
 typedef int32_t int8 __attribute__((vector_size(32)));
 typedef uint32_t uint8 __attribute__((vector_size(32)));
 
 [[maybe_unused]] static thread_local uint vndf_render_item;
 
-static inline int vndf_render_any(int8 mask) {
-    int all = 0;
-    for (int i = 0; i < 8; ++i) all |= mask[i];
-    return all;
+static inline ulong vndf_render_bytes(int8 mask) {
+    typedef char char8 __attribute__((vector_size(8)));
+    const char8 bytes = __builtin_convertvector(mask, char8);
+    ulong bits;
+    memcpy(&bits, &bytes, sizeof bits);
+    return bits;
 }
 static inline uint vndf_render_bits(float x) {
     uint bits;

@@ -2,21 +2,53 @@
 #ifndef VNDF_RENDER_TRAVERSE_H
 #define VNDF_RENDER_TRAVERSE_H
 
-#include "tree.h"
+#include "packet.h"
+
+VNDF_FN struct vndf_render_ray vndf_render_path_ray(VNDF_RENDER_FROM(float) path, uint stride, uint i) {
+    return vndf_render_ray_of(path[VNDF_PATH_X * stride + i], path[VNDF_PATH_Y * stride + i],
+                              path[VNDF_PATH_Z * stride + i], path[VNDF_PATH_DX * stride + i],
+                              path[VNDF_PATH_DY * stride + i], path[VNDF_PATH_DZ * stride + i]);
+}
+
+VNDF_FN void vndf_render_store_hit(struct vndf_render_hit found, uint stride, uint i,
+                                   VNDF_RENDER_TO(float) hit, VNDF_RENDER_TO(uint) triangle) {
+    hit[VNDF_HIT_B1 * stride + i] = found.b1;
+    hit[VNDF_HIT_B2 * stride + i] = found.b2;
+    triangle[i] = found.triangle;
+}
 
 VNDF_RENDER_KERNEL vndf_render_traverse(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_IN(float) leaves,
                                         VNDF_RENDER_IN(float) path, const uint count, const uint stride,
                                         VNDF_RENDER_OUT(float) hit, VNDF_RENDER_OUT(uint) triangle) {
     const uint i = VNDF_RENDER_ITEM;
     if (i >= count) return;
-    const struct vndf_render_ray ray = vndf_render_ray_of(
-        path[VNDF_PATH_X * stride + i], path[VNDF_PATH_Y * stride + i], path[VNDF_PATH_Z * stride + i],
-        path[VNDF_PATH_DX * stride + i], path[VNDF_PATH_DY * stride + i], path[VNDF_PATH_DZ * stride + i]);
-    const struct vndf_render_hit first = vndf_render_trace(nodes, leaves, ray, 0);
-    hit[VNDF_HIT_B1 * stride + i] = first.b1;
-    hit[VNDF_HIT_B2 * stride + i] = first.b2;
-    triangle[i] = first.triangle;
+    vndf_render_store_hit(vndf_render_trace(nodes, leaves, vndf_render_path_ray(path, stride, i), 0), stride,
+                          i, hit, triangle);
 }
+
+#if VNDF_PACKET > 1
+
+// The same for a packet of paths to an item.
+VNDF_RENDER_KERNEL vndf_render_packets(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_IN(float) leaves,
+                                       VNDF_RENDER_IN(float) path, const uint count, const uint stride,
+                                       VNDF_RENDER_OUT(float) hit, VNDF_RENDER_OUT(uint) triangle) {
+    const uint first = VNDF_PACKET * VNDF_RENDER_ITEM;
+    if (first >= count) return;
+    struct vndf_render_packet packet;
+    // What is left of the last packet is filled with the last ray.
+    for (int k = 0; k < VNDF_PACKET; ++k)
+        vndf_render_add(&packet, k,
+                        vndf_render_path_ray(path, stride, first + k < count ? first + k : count - 1));
+    if (vndf_render_together(&packet))
+        vndf_render_trace_packet(nodes, leaves, &packet);
+    else
+        for (int k = 0; k < VNDF_PACKET; ++k)
+            packet.hit[k] = vndf_render_trace(nodes, leaves, packet.ray[k], 0);
+    for (uint k = 0; k < VNDF_PACKET && first + k < count; ++k)
+        vndf_render_store_hit(packet.hit[k], stride, first + k, hit, triangle);
+}
+
+#endif
 
 VNDF_RENDER_KERNEL vndf_render_shadow(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_IN(float) leaves,
                                       VNDF_RENDER_IN(float) path, VNDF_RENDER_IN(float) lights,

@@ -10,6 +10,10 @@
 #include "queues.h"
 
 #define VNDF_STACK (7 * VNDF_TREE_DEPTH + 1)
+// A node's planes come in pairs: a ray that meets one of them first leaves by the sum less it.
+#define VNDF_NODE_PAIR_X (VNDF_NODE_LOW_X + VNDF_NODE_HIGH_X)
+#define VNDF_NODE_PAIR_Y (VNDF_NODE_LOW_Y + VNDF_NODE_HIGH_Y)
+#define VNDF_NODE_PAIR_Z (VNDF_NODE_LOW_Z + VNDF_NODE_HIGH_Z)
 
 struct vndf_render_ray {
     float x, y, z;
@@ -30,6 +34,14 @@ VNDF_FN float8 vndf_render_least8(float8 a, float8 b) {
 }
 VNDF_FN float8 vndf_render_most8(float8 a, float8 b) {
     return b > a ? b : a;
+}
+
+// Of lanes that are a byte of ones each: the last, and those before a lane.
+VNDF_FN int vndf_render_last_lane(ulong lanes) {
+    return 7 - VNDF_RENDER_CLZ(lanes) / 8;
+}
+VNDF_FN ulong vndf_render_lanes_below(ulong lanes, int lane) {
+    return lanes & (((ulong)1 << 8 * lane) - 1);
 }
 
 // A component too small to divide by counts as one that moves the ray by nothing within any scene.
@@ -66,25 +78,27 @@ VNDF_FN float vndf_render_axis(struct vndf_render_ray ray, int axis) {
     return axis == 0 ? ray.x : axis == 1 ? ray.y : ray.z;
 }
 
-// Where the ray enters the eight boxes of a node, negative for those that it does not enter before t.
-VNDF_FN float8 vndf_render_boxes(VNDF_RENDER_FROM(float) node, struct vndf_render_ray ray, float t) {
+// Where eight rays enter eight boxes, from the distances to the boxes' planes: negative for those that do not before t.
+VNDF_FN float8 vndf_render_enter(float8 near_x, float8 near_y, float8 near_z, float8 far_x, float8 far_y,
+                                 float8 far_z, float8 t) {
     // Relative to what it is a sum of, a distance to a plane is off by 2^-22 at most, one to a hit by a few times that.
     const float less = 0.99999f, more = 1.00001f;
-    const int sum_x = VNDF_NODE_LOW_X + VNDF_NODE_HIGH_X, sum_y = VNDF_NODE_LOW_Y + VNDF_NODE_HIGH_Y,
-              sum_z = VNDF_NODE_LOW_Z + VNDF_NODE_HIGH_Z;
-    const float8 near_x = (vload8(0, node + ray.near_x) - ray.x) * ray.inverse_x;
-    const float8 near_y = (vload8(0, node + ray.near_y) - ray.y) * ray.inverse_y;
-    const float8 near_z = (vload8(0, node + ray.near_z) - ray.z) * ray.inverse_z;
-    const float8 far_x = (vload8(0, node + sum_x - ray.near_x) - ray.x) * ray.inverse_x;
-    const float8 far_y = (vload8(0, node + sum_y - ray.near_y) - ray.y) * ray.inverse_y;
-    const float8 far_z = (vload8(0, node + sum_z - ray.near_z) - ray.z) * ray.inverse_z;
-    const float8 enter =
-        vndf_render_most8(vndf_render_most8(near_x, near_y), vndf_render_most8(near_z, VNDF_RENDER_8(0.0f))) *
-        less;
+    const float8 enter = less * vndf_render_most8(vndf_render_most8(near_x, near_y),
+                                                  vndf_render_most8(near_z, VNDF_RENDER_8(0.0f)));
     const float8 leave =
-        vndf_render_least8(vndf_render_least8(far_x, far_y), vndf_render_least8(far_z, VNDF_RENDER_8(t))) *
-        more;
+        more * vndf_render_least8(vndf_render_least8(far_x, far_y), vndf_render_least8(far_z, t));
     return enter <= leave ? enter : VNDF_RENDER_8(-1.0f);
+}
+
+// The same of one ray and the boxes of a node.
+VNDF_FN float8 vndf_render_boxes(VNDF_RENDER_FROM(float) node, struct vndf_render_ray ray, float t) {
+    return vndf_render_enter((vload8(0, node + ray.near_x) - ray.x) * ray.inverse_x,
+                             (vload8(0, node + ray.near_y) - ray.y) * ray.inverse_y,
+                             (vload8(0, node + ray.near_z) - ray.z) * ray.inverse_z,
+                             (vload8(0, node + VNDF_NODE_PAIR_X - ray.near_x) - ray.x) * ray.inverse_x,
+                             (vload8(0, node + VNDF_NODE_PAIR_Y - ray.near_y) - ray.y) * ray.inverse_y,
+                             (vload8(0, node + VNDF_NODE_PAIR_Z - ray.near_z) - ray.z) * ray.inverse_z,
+                             VNDF_RENDER_8(t));
 }
 
 // The nearest of `hit` and what the ray meets in a leaf.
@@ -115,16 +129,17 @@ VNDF_FN struct vndf_render_hit vndf_render_leaf(VNDF_RENDER_FROM(float) leaf, st
     const float8 t = (u * az + v * bz + w * cz) * ray.shear_z * inverse;
     const int8 met =
         ((least >= zero) | (most <= zero)) & (determinant != zero) & (t > zero) & (t <= VNDF_RENDER_8(hit.t));
-    if (!VNDF_RENDER_ANY(met)) return hit;
-    int lanes[8];
+    ulong lanes = VNDF_RENDER_BYTES(met);
+    if (lanes == 0) return hit;
     float ts[8], b1[8], b2[8];
-    vstore8(met, 0, lanes);
     vstore8(t, 0, ts);
     vstore8(v * inverse, 0, b1);
     vstore8(w * inverse, 0, b2);
-    for (int i = 0; i < 8; ++i) {
+    while (lanes != 0) {
+        const int i = vndf_render_last_lane(lanes);
+        lanes = vndf_render_lanes_below(lanes, i);
         const uint triangle = VNDF_RENDER_BITS(leaf[VNDF_LEAF_TRIANGLE + i]);
-        if (lanes[i] && (ts[i] < hit.t || (ts[i] == hit.t && triangle < hit.triangle))) {
+        if (ts[i] < hit.t || (ts[i] == hit.t && triangle < hit.triangle)) {
             hit.t = ts[i];
             hit.b1 = b1[i];
             hit.b2 = b2[i];
@@ -134,54 +149,77 @@ VNDF_FN struct vndf_render_hit vndf_render_leaf(VNDF_RENDER_FROM(float) leaf, st
     return hit;
 }
 
-// The first hit of a ray, or any at all where `any` is not 0.
-VNDF_FN struct vndf_render_hit vndf_render_trace(VNDF_RENDER_FROM(float) nodes,
-                                                 VNDF_RENDER_FROM(float) leaves, struct vndf_render_ray ray,
-                                                 int any) {
+// Children of nodes that are still to be looked at, and where they are entered.
+struct vndf_render_stack {
+    int size;
+    int child[VNDF_STACK];
+    float enter[VNDF_STACK];
+};
+
+// No child has this number.
+#define VNDF_NO_CHILD ((int)0x80000000)
+
+// The nearest of a node's children that are entered; the others wait as they come.
+VNDF_FN int vndf_render_push(struct vndf_render_stack* stack, VNDF_RENDER_FROM(float) node, float8 enter) {
+    ulong lanes = VNDF_RENDER_BYTES(enter >= VNDF_RENDER_8(0.0f));
+    if (lanes == 0) return VNDF_NO_CHILD;
+    float at[8];
+    vstore8(enter, 0, at);
+    int lane = vndf_render_last_lane(lanes), nearest = (int)VNDF_RENDER_BITS(node[VNDF_NODE_CHILD + lane]);
+    float least = at[lane];
+    while ((lanes = vndf_render_lanes_below(lanes, lane)) != 0) {
+        lane = vndf_render_last_lane(lanes);
+        const int child = (int)VNDF_RENDER_BITS(node[VNDF_NODE_CHILD + lane]), nearer = at[lane] < least;
+        stack->child[stack->size] = nearer ? nearest : child;
+        stack->enter[stack->size++] = nearer ? least : at[lane];
+        nearest = nearer ? child : nearest;
+        least = nearer ? at[lane] : least;
+    }
+    return nearest;
+}
+
+// The next child that is entered before t.
+VNDF_FN int vndf_render_pop(struct vndf_render_stack* stack, float t) {
+    while (stack->size != 0)
+        if (stack->enter[--stack->size] <= t * 1.00001f) return stack->child[stack->size];
+    return VNDF_NO_CHILD;
+}
+
+VNDF_FN VNDF_RENDER_FROM(float) vndf_render_node_at(VNDF_RENDER_FROM(float) nodes, int child) {
+    return nodes + (size_t)VNDF_NODE_SIZE * (uint)child;
+}
+VNDF_FN VNDF_RENDER_FROM(float) vndf_render_leaf_at(VNDF_RENDER_FROM(float) leaves, int child) {
+    return leaves + (size_t)VNDF_LEAF_SIZE * (uint)~child;
+}
+
+VNDF_FN struct vndf_render_hit vndf_render_no_hit(void) {
     struct vndf_render_hit hit;
     hit.t = 3.0e38f;
     hit.b1 = 0.0f;
     hit.b2 = 0.0f;
     hit.triangle = VNDF_MISS;
-    int stack[VNDF_STACK];
-    float enters[VNDF_STACK];
-    int size = 0, child = 0;
+    return hit;
+}
+
+// The first hit of a ray, or any at all where `any` is not 0.
+VNDF_FN struct vndf_render_hit vndf_render_trace(VNDF_RENDER_FROM(float) nodes,
+                                                 VNDF_RENDER_FROM(float) leaves, struct vndf_render_ray ray,
+                                                 int any) {
+    struct vndf_render_hit hit = vndf_render_no_hit();
+    struct vndf_render_stack stack;
+    stack.size = 0;
+    int child = 0;
     for (;;) {
+        int next = VNDF_NO_CHILD;
         if (child < 0) {
-            hit = vndf_render_leaf(leaves + (size_t)VNDF_LEAF_SIZE * (uint)~child, ray, hit);
+            hit = vndf_render_leaf(vndf_render_leaf_at(leaves, child), ray, hit);
             if (any && hit.triangle != VNDF_MISS) return hit;
         } else {
-            VNDF_RENDER_FROM(float) const node = nodes + (size_t)VNDF_NODE_SIZE * (uint)child;
-            const float8 enter = vndf_render_boxes(node, ray, hit.t);
-            float at[8];
-            vstore8(enter, 0, at);
-            // On with the nearest; the others wait as they come.
-            int found = 0;
-            float nearest = 0.0f;
-            for (int i = 0; i < 8; ++i) {
-                if (at[i] < 0.0f) continue;
-                int other = (int)VNDF_RENDER_BITS(node[VNDF_NODE_CHILD + i]);
-                float other_at = at[i];
-                if (found && other_at >= nearest) {
-                    stack[size] = other;
-                    enters[size++] = other_at;
-                    continue;
-                }
-                if (found) {
-                    stack[size] = child;
-                    enters[size++] = nearest;
-                }
-                found = 1;
-                child = other;
-                nearest = other_at;
-            }
-            if (found) continue;
+            VNDF_RENDER_FROM(float) const node = vndf_render_node_at(nodes, child);
+            next = vndf_render_push(&stack, node, vndf_render_boxes(node, ray, hit.t));
         }
-        do {
-            if (size == 0) return hit;
-            --size;
-        } while (enters[size] > hit.t * 1.00001f);
-        child = stack[size];
+        child = next == VNDF_NO_CHILD ? vndf_render_pop(&stack, hit.t) : next;
+        if (child == VNDF_NO_CHILD) return hit;
     }
 }
 

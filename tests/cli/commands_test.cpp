@@ -82,7 +82,7 @@ TEST_CASE("every command runs to its end with every option") {
         "render --help",
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
         "separable --random philox "
-        "--math builtin --orbs anisotropy --effects all --device \"$device\"",
+        "--math builtin --orbs anisotropy --sky white --effects all --device \"$device\"",
         "render --output a.exr --size 8x4 --time 0.01 --explain",
         "render --output b.png --size 8x4 --target-error 0.5",
         "policies --help",

@@ -32,6 +32,49 @@ double slope(const Rendered& r, double value, std::initializer_list<unsigned> sa
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
+constexpr double bend = 0.4;  // radians by which normals are turned towards the light
+
+// A white ball seen from afar and lit from the right by a small sun, with normals as a normal map would bend them.
+Rendered bent_ball(const std::string& effects) {
+    render::Scene scene;
+    scene.name = "bent ball";
+    scene.add_sphere({0, 0, 0}, 1, 200, render::lambert({1, 1, 1}));
+    for (render::Vertex& v : scene.vertices) {
+        const double x = v.normal[0], z = v.normal[2];
+        v.normal[0] = static_cast<float>(std::cos(bend) * x + std::sin(bend) * z);
+        v.normal[2] = static_cast<float>(std::cos(bend) * z - std::sin(bend) * x);
+    }
+    scene.sky = render::constant_sky(0);
+    scene.sky.sun_share = 1;
+    scene.sky.sun_radius = 0.005f;
+    const auto sun = static_cast<float>(1 / std::pow(std::sin(0.005), 2));
+    scene.sky.sun = {sun, sun, sun};  // a surface that faces it has the radiance 1
+    scene.sky.to_sun = {1, 0, 0};
+    scene.camera = {{0, 0, 2000}, {0, 0, 0}, 1e-3f};
+    Rendered r = rendered(scene, 64, 64, 16 * effort());
+    r.effects = effects;
+    r.settings.max_bounces = 1;
+    return r;
+}
+
+// Of the pixels on the ball's middle: the largest step from one to the next, and the largest distance from what Chiang et al.
+// have there (kernels/vndf/bsdf.h).
+std::pair<double, double> terminator_of(const render::Image& image) {
+    double step = 0, off = 0;
+    for (unsigned row = 24; row < 40; ++row)
+        for (unsigned column = 12; column < 52; ++column) {
+            const float* const pixel = &image.pixels[3 * (row * 64 + column)];
+            step = std::max(step, std::abs(static_cast<double>(pixel[3]) - pixel[0]));
+            const double x = (column + 0.5) / 32 - 1, y = 1 - (row + 0.5) / 32,
+                         z = std::sqrt(1 - x * x - y * y);
+            const double normal = std::cos(bend) * x + std::sin(bend) * z,
+                         both = std::cos(bend) * (1 - y * y) + y * y;
+            const double g = std::clamp(x / (normal * both), 0.0, 1.0);
+            off = std::max(off, std::abs(pixel[0] - std::max(normal, 0.0) * (g + g * g - g * g * g)));
+        }
+    return {step, off};
+}
+
 }  // namespace
 
 TEST_CASE("the analytic albedo is what is known of it") {
@@ -79,6 +122,15 @@ TEST_CASE("direct light has its closed form") {
     const double ball = 1.5 * 1.5 / 25 * 0.6;
     CHECK(mean(rendered(shaded, 32, 32, 64 * effort()).image()) ==
           Catch::Approx(albedo * (1 - ball)).epsilon(1e-3));
+}
+
+TEST_CASE("the shadow terminator is an edge without its effect, and fades as published with it") {
+    const auto [edge, without] = terminator_of(bent_ball("lambert,shading_normal").image());
+    CHECK(edge > 0.9 * std::sin(bend));
+    CHECK(without > 0.9 * std::sin(bend));
+    const auto [step, off] = terminator_of(bent_ball("lambert,shading_normal,terminator").image());
+    CHECK(step < 0.06);
+    CHECK(off < 0.01);
 }
 
 TEST_CASE("every sampler draws the same image") {

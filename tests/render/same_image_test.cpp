@@ -2,6 +2,7 @@
 // threads, and where the stages run.
 #include <fmt/format.h>
 
+#include "error.h"
 #include "scenes.h"
 #include "support/command.h"
 
@@ -67,14 +68,48 @@ TEST_CASE("the size of the queues changes no bit") {
     }
 }
 
-TEST_CASE("the stages as C++ have the bits of the device") {
-    for (const std::string& kind : render::orb_kinds()) {
-        CAPTURE(kind);
-        Rendered r = small_orbs(kind);
-        if (r.scene.fresnel != "schlick") continue;  // the C++ build has that one alone
-        const auto cpp = render::cpp_stages();
-        CHECK(same(r.image(), r.on(*cpp)));
-    }
+TEST_CASE("packets of any width see what single rays see, whatever the size of the queues") {
+    Rendered r = small_orbs("roughness");
+    const auto image = [&](unsigned packet, std::size_t queue) {
+        render::Switches switches = r.switches();
+        switches.packet = packet;
+        r.settings.queue = queue;
+        const auto stages =
+            render::device_stages(runtime::choose_device().device, runtime::Math::strict, switches);
+        CHECK(stages->packet() == packet);
+        return r.on(*stages);
+    };
+    const render::Image single = image(1, 1 << 17);
+    for (const unsigned packet : {1, 8, 16, 32})
+        for (const std::size_t queue : {256, 1000, 1 << 17}) {
+            CAPTURE(packet, queue);
+            CHECK(same(single, image(packet, queue)));
+        }
+}
+
+TEST_CASE("the stages as C++ have the bits of the device, for every model") {
+    const auto check = [](Rendered r) {
+        CAPTURE(r.scene.name, r.choices.ndf, r.scene.fresnel);
+        const auto cpp = render::cpp_stages(r.choices.ndf, r.scene.fresnel);
+        const render::Image image = r.image();
+        CHECK(same(image, r.on(*cpp)));
+        return image;
+    };
+    for (const std::string& kind : render::orb_kinds()) check(small_orbs(kind));
+    std::vector<render::Image> different;
+    for (const std::string ndf : {"ggx", "beckmann"})
+        for (const std::string fresnel : {"none", "conductor", "schlick", "f82"}) {
+            Rendered r = small_orbs("metals");
+            r.choices.ndf = ndf;
+            r.choices.sampler = ndf == "ggx" ? "bounded" : "plain";
+            r.scene.fresnel = fresnel;
+            for (render::Material& m : r.scene.materials)
+                if (fresnel != "conductor") m.first = {0.9f, 0.6f, 0.3f}, m.second = {0.8f, 0.9f, 0.7f};
+            const render::Image image = check(r);
+            for (const render::Image& other : different) CHECK_FALSE(same(image, other));
+            different.push_back(image);
+        }
+    CHECK_THROWS_AS(render::cpp_stages("ggx", "fog"), InputError);
 }
 
 TEST_CASE("another seed is another image, the same seed the same") {

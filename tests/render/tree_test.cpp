@@ -1,7 +1,8 @@
 // Rays through the tree meet what they meet without one, to the bit.
 #include <random>
 
-#include "kernels/render/tree.h"
+#define VNDF_PACKET 16
+#include "kernels/render/packet.h"
 #include "render/tree.h"
 #include "support/catch.h"
 
@@ -72,6 +73,37 @@ TEST_CASE("the tree finds the first hit of every ray, whatever its shape") {
         CHECK(seconds == 0);
         if (triangles > 1000) CHECK(hits > 1000);
     }
+}
+
+TEST_CASE("rays in packets find what single ones find, however far apart they run") {
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal;
+    const render::Tree tree = render::build_tree(soup(2000, 3));
+    const auto trace = [&](const vndf_render_ray& ray) {
+        return vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0);
+    };
+    unsigned hits = 0, wrong = 0, beams = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const float spread = std::pow(10.0f, static_cast<float>(i % 5 - 4));
+        float o[3], d[3];
+        for (int axis = 0; axis < 3; ++axis)
+            o[axis] = 2 * normal(random), d[axis] = 0.5f * normal(random) - o[axis];
+        vndf_render_packet packet;
+        for (int k = 0; k < VNDF_PACKET; ++k) {
+            for (float& x : d) x += spread * normal(random);
+            vndf_render_add(&packet, k, vndf_render_ray_of(o[0], o[1], o[2], d[0], d[1], d[2]));
+        }
+        if (!vndf_render_together(&packet)) continue;
+        ++beams;
+        vndf_render_trace_packet(tree.nodes.data(), tree.leaves.data(), &packet);
+        for (int k = 0; k < VNDF_PACKET; ++k) {
+            hits += packet.hit[k].triangle != VNDF_MISS;
+            wrong += !same(packet.hit[k], trace(packet.ray[k]));
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(beams > 500);
+    CHECK(hits > 2000);
 }
 
 TEST_CASE("no ray slips between the triangles of a closed mesh") {

@@ -68,6 +68,7 @@ inline const std::map<std::string, Values>& values() {
         {"--masking", {{"correlated", "separable"}, {"", "smith"}}},
         {"--random", {{"sobol", "philox"}, {"", "halton"}}},
         {"--orbs", {{"roughness", "metals"}, {"", "glass of water"}}},
+        {"--sky", {{"day", "white"}, {"", "night"}}},
         {"--effects", {{"auto", "all", "conductor,lambert"}, {""}}},
         {"--input", {{"-", "a.csv", "a b"}, {""}}},
         {"--output", {{"-", "b.csv"}, {""}}},
