@@ -24,6 +24,7 @@ fi
 [ $# = 3 ] || cannot "usage: emit.sh [--quick] PROJECT BUILD WORK"
 project=$1 build=$2 work=$3 clvndf=$2/clvndf
 [ -f "$project/tests/data/digests_quick.txt" ] || cannot "no digests in $project/tests/data: it is not the source folder"
+project=$(cd "$project" && pwd)
 libraries="$build/host/libclvndf_host.a $build/host/reference/libclvndf_reference.a"
 for file in $libraries "$clvndf"; do [ -f "$file" ] || cannot "no $file: build it first"; done
 mkdir -p "$work" 2>/dev/null || cannot "$work: cannot make this folder"
