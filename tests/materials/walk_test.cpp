@@ -194,7 +194,7 @@ Findings check(const BsdfProgram& program, const Lobe& lobe, std::size_t count) 
     // Directions all over the sphere do not find a narrow lobe: the estimates' variance would not be seen.
     const double width =
         std::min(lobe.alpha_x, lobe.alpha_y) * (lobe.eta > 0 ? std::abs(1 - 1 / lobe.eta) : 1);
-    if (width > .06) all = check_estimates(program, lobe, count);
+    if (width > .15) all = check_estimates(program, lobe, count);
     all.push_back(lobe.ndf == "ggx" ? check_heights<reference::Ggx>(program, lobe, count / 4)
                                     : check_heights<reference::Beckmann>(program, lobe, count / 4));
     return all;

@@ -1,0 +1,33 @@
+// The entry point behind the tables of energy.h: directional albedos of a conductor that reflects everything, by midpoints over
+// the unit square of the sampler that is chosen.
+//
+//   vndf_batch_albedo   wo, alpha -> the loss 1 - E(wo), with VNDF_ALBEDO_POINTS squared midpoints
+#include "../vndf/bsdf_conductor.h"
+
+#ifndef VNDF_ALBEDO_POINTS
+#define VNDF_ALBEDO_POINTS 64
+#endif
+
+__kernel void vndf_batch_albedo(__global const VNDF_REAL* restrict in_wo_x,
+                                __global const VNDF_REAL* restrict in_wo_y,
+                                __global const VNDF_REAL* restrict in_wo_z,
+                                __global const VNDF_REAL* restrict in_alpha_x,
+                                __global const VNDF_REAL* restrict in_alpha_y,
+                                __global VNDF_REAL* restrict out_loss) {
+    const size_t i = get_global_id(0);
+    const struct vndf_impl_conductor c = vndf_impl_conductor_of(
+        VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]), VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]));
+    const VNDF_REAL step = VNDF_R(1.0) / VNDF_ALBEDO_POINTS;
+    VNDF_REAL loss = VNDF_R(0.0);
+    for (int j = 0; j < VNDF_ALBEDO_POINTS; ++j) {
+        VNDF_REAL row = VNDF_R(0.0);  // a sum of its own, which rounds less
+        for (int k = 0; k < VNDF_ALBEDO_POINTS; ++k) {
+            const VNDF_REAL2 u =
+                VNDF_MAKE2(((VNDF_REAL)j + VNDF_R(0.5)) * step, ((VNDF_REAL)k + VNDF_R(0.5)) * step);
+            const struct vndf_impl_sample s = vndf_impl_conductor_sample(c, u);
+            row += VNDF_R(1.0) - vndf_impl_conductor_weight(c, VNDF_MAKE3(s.x, s.y, s.z));
+        }
+        loss += row * step;
+    }
+    out_loss[i] = loss * step;
+}
