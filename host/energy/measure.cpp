@@ -56,12 +56,14 @@ std::vector<double> losses(const runtime::Device& device, const Surface& surface
 Table measured(const runtime::Device& device, const Surface& surface) {
     std::vector<View> views;
     for (int row = 0; row < Table::rows; ++row)
-        for (int column = 0; column < Table::columns; ++column)
-            views.push_back(in_plane(cosine_of(column, measured_alpha(row)), measured_alpha(row)));
+        for (int column = 0; column < Table::columns; ++column) {
+            // The horizon sees nothing: it has the limit, too.
+            const double alpha = measured_alpha(row), cosine = cosine_of(column == 0 ? .02 : column, alpha);
+            views.push_back(in_plane(cosine, alpha));
+        }
     Table table{surface, {}};
     for (const double loss : losses(device, surface, views))
         table.losses.push_back(static_cast<float>(std::max(loss, 0.)));
-    for (int row = 0; row < Table::rows; ++row) table.losses[row * Table::columns] = 0;  // the horizon
     return table;
 }
 

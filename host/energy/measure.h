@@ -14,7 +14,7 @@ struct View {
 
 // 1 - E for each view, by `points` squared midpoints.
 std::vector<double> losses(const runtime::Device& device, const Surface& surface,
-                           const std::vector<View>& views, int points = 64);
+                           const std::vector<View>& views, int points = 128);
 
 Table measured(const runtime::Device& device, const Surface& surface);
 
