@@ -191,8 +191,9 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, stru
         vndf_impl_bsdf_reflectance(b, vndf_impl_half_cosine(wo, wi)), vndf_impl_conductor_weight(c, wi));
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
     VNDF_REAL loss = vndf_energy_loss(wo, vndf_impl_bsdf_alpha(b));
-    weight =
-        vndf_impl_rgb_product(weight, vndf_impl_turquin(vndf_impl_bsdf_reflectance(b, VNDF_R(1.0)), loss));
+    // Made dependent on the other reflectance, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    struct vndf_rgb f0 = vndf_impl_bsdf_reflectance(b, weight.b >= VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.5));
+    weight = vndf_impl_rgb_product(weight, vndf_impl_turquin(f0, loss));
 #endif
     return weight;
 }
@@ -201,21 +202,19 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, stru
 
 // The mean of the reflectance by the cosine law: Gauss and Jacobi's rule of four cosines, exact for schlick and f82, and within
 // 7e-4 for metals of eta in [0.05, 5] and k in [0.5, 10].
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_average_and(struct vndf_rgb sum, struct vndf_bsdf b, VNDF_REAL cosine,
+                                                   VNDF_REAL share) {
+    // Dependent on the sum before, so that LLVM's SLP pass does not pack the nodes; the other choice is never taken.
+    struct vndf_rgb f = vndf_impl_bsdf_reflectance(b, sum.b >= VNDF_R(0.0) ? cosine : VNDF_R(1.0));
+    return vndf_impl_rgb(VNDF_FMA(share, f.r, sum.r), VNDF_FMA(share, f.g, sum.g),
+                         VNDF_FMA(share, f.b, sum.b));
+}
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_average_reflectance(struct vndf_bsdf b) {
-    struct vndf_rgb sum = vndf_impl_rgb_scaled(vndf_impl_bsdf_reflectance(b, VNDF_R(0.13975986434378057)),
-                                               VNDF_R(0.062361941900016114));
-    for (int i = 0; i < 3; ++i) {
-        VNDF_REAL cosine = i == 0   ? VNDF_R(0.41640956763108317)
-                           : i == 1 ? VNDF_R(0.7231569863618762)
-                                    : VNDF_R(0.94289580388548233);
-        VNDF_REAL share = i == 0   ? VNDF_R(0.259695095216465)
-                          : i == 1 ? VNDF_R(0.40692913602054293)
-                                   : VNDF_R(0.27101382686297598);
-        struct vndf_rgb f = vndf_impl_bsdf_reflectance(b, cosine);
-        sum = vndf_impl_rgb(VNDF_FMA(share, f.r, sum.r), VNDF_FMA(share, f.g, sum.g),
-                            VNDF_FMA(share, f.b, sum.b));
-    }
-    return sum;
+    struct vndf_rgb sum = vndf_impl_rgb(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(0.0));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.13975986434378057), VNDF_R(0.062361941900016114));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.41640956763108317), VNDF_R(0.259695095216465));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.7231569863618762), VNDF_R(0.40692913602054293));
+    return vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.94289580388548233), VNDF_R(0.27101382686297598));
 }
 
 VNDF_FN struct vndf_impl_kulla_conty vndf_impl_bsdf_kulla_conty(struct vndf_bsdf b, VNDF_REAL3 wo) {
@@ -295,7 +294,9 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed_weight(struct vndf_bsdf b, struct v
 #if VNDF_IMPL_KULLA_CONTY
     // Of both parts' light that of one draw: less often drawn, heavier.
     VNDF_REAL conductor = vndf_impl_bsdf_conducting(b), other = VNDF_R(1.0) - conductor;
-    VNDF_REAL loss = conductor * vndf_energy_loss(wi, vndf_impl_bsdf_alpha(b)),
+    // Made dependent on the look-up of wo, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    VNDF_REAL z = d.lobe.share >= VNDF_R(0.0) ? wi.z : VNDF_R(1.0);
+    VNDF_REAL loss = conductor * vndf_energy_loss(VNDF_MAKE3(wi.x, wi.y, z), vndf_impl_bsdf_alpha(b)),
               rcp = VNDF_R(1.0) / (d.rest > VNDF_R(0.0) ? d.rest : VNDF_R(1.0));
     diffuse = vndf_impl_rgb(rcp * VNDF_FMA(loss, d.lobe.scale.r, other * diffuse.r),
                             rcp * VNDF_FMA(loss, d.lobe.scale.g, other * diffuse.g),

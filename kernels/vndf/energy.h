@@ -3,7 +3,7 @@
 // The loss is 1 - E of a perfect mirror's facets, E the directional albedo. It comes from a table over the direction and the
 // roughness, with linear interpolation: the header that VNDF_ENERGY_TABLE names, or that of VNDF_NDF and VNDF_MASKING here, which
 // `clvndf energy` writes. Error of the loss, asserted by energy_test.cpp "the tables' losses are those by quadrature":
-//     alpha in [1e-3, 2]: isotropic 3.5e-3 (GGX 1.2e-3), one alpha up to 2 times the other 0.065, up to 10 times 0.13.
+//     alpha in [1e-3, 2]: isotropic 3.5e-3 (GGX 1.6e-3), one alpha up to 2 times the other 0.065, up to 10 times 0.13.
 // Anisotropy is an effective alpha, sqrt((alpha_x^2 + alpha_y^2) / 2), with the direction stretched by both. alpha above 2 counts
 // as 2.
 //
@@ -85,13 +85,15 @@ VNDF_FN VNDF_REAL vndf_impl_energy_column(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // return: in [0, 1]; below the horizon as at it, 0.
 VNDF_FN VNDF_REAL vndf_energy_loss(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     struct vndf_impl_between row = vndf_impl_between_of(vndf_impl_energy_row(alpha), VNDF_ENERGY_ROWS);
-    struct vndf_impl_between column =
-        vndf_impl_between_of(vndf_impl_energy_column(w, alpha), VNDF_ENERGY_COLUMNS);
+    // Made dependent on the row, and the second row's value on the first's, so that LLVM's SLP pass does not pack what is alike; the
+    // other choices are never taken.
+    VNDF_REAL place = row.share >= VNDF_R(0.0) ? vndf_impl_energy_column(w, alpha) : VNDF_R(0.0);
+    struct vndf_impl_between column = vndf_impl_between_of(place, VNDF_ENERGY_COLUMNS);
     int at = row.first * VNDF_ENERGY_COLUMNS + column.first;
     VNDF_REAL a = vndf_energy_losses[at], b = vndf_energy_losses[at + 1];
     VNDF_REAL low = VNDF_FMA(column.share, b - a, a);
-    VNDF_REAL c = vndf_energy_losses[at + VNDF_ENERGY_COLUMNS],
-              d = vndf_energy_losses[at + (VNDF_ENERGY_COLUMNS + 1)];
+    int next = low >= VNDF_R(0.0) ? at + VNDF_ENERGY_COLUMNS : 0;
+    VNDF_REAL c = vndf_energy_losses[next], d = vndf_energy_losses[next + 1];
     VNDF_REAL high = VNDF_FMA(column.share, d - c, c);
     return VNDF_FMA(row.share, high - low, low);
 }

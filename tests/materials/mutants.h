@@ -94,7 +94,7 @@
      {"value"}},
     {"Kulla and Conty's lobe without the loss along wi",
      "kernels/vndf/bsdf.h",
-     "conductor * vndf_energy_loss(wi, vndf_impl_bsdf_alpha(b))",
+     "conductor * vndf_energy_loss(VNDF_MAKE3(wi.x, wi.y, z), vndf_impl_bsdf_alpha(b))",
      "conductor * vndf_energy_average_loss(vndf_impl_bsdf_alpha(b))",
      "ENERGY=kulla_conty",
      {"value", "reciprocity"}},
