@@ -184,6 +184,24 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL
 #endif
 }
 
+#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
+// The reflectance at normal incidence. last: of the other angle, on which it is made dependent, so that LLVM's SLP pass does not
+// pack the two; the other choice is never taken.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_upright_reflectance(struct vndf_bsdf b, VNDF_REAL last) {
+#if VNDF_CHOSEN(VNDF_FRESNEL, schlick) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
+    struct vndf_rgb f = vndf_impl_rgb(vndf_impl_reflectance(b.f0.r), vndf_impl_reflectance(b.f0.g),
+                                      vndf_impl_reflectance(b.f0.b));
+    (void)last;
+#if VNDF_TINT
+    f = vndf_impl_rgb_product(f, b.tint);
+#endif
+    return f;
+#else
+    return vndf_impl_bsdf_reflectance(b, last >= VNDF_R(0.0) ? VNDF_R(1.0) : last);
+#endif
+}
+#endif
+
 // Its weight: BSDF times cos(theta_i) over its own density.
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, struct vndf_impl_conductor c,
                                                         VNDF_REAL3 wo, VNDF_REAL3 wi) {
@@ -191,9 +209,7 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, stru
         vndf_impl_bsdf_reflectance(b, vndf_impl_half_cosine(wo, wi)), vndf_impl_conductor_weight(c, wi));
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
     VNDF_REAL loss = vndf_energy_loss(wo, vndf_impl_bsdf_alpha(b));
-    // Made dependent on the other reflectance, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
-    struct vndf_rgb f0 = vndf_impl_bsdf_reflectance(b, weight.b >= VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.5));
-    weight = vndf_impl_rgb_product(weight, vndf_impl_turquin(f0, loss));
+    weight = vndf_impl_turquin(weight, vndf_impl_bsdf_upright_reflectance(b, weight.b), loss);
 #endif
     return weight;
 }
@@ -301,8 +317,9 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed_weight(struct vndf_bsdf b, struct v
     diffuse = vndf_impl_rgb(rcp * VNDF_FMA(loss, d.lobe.scale.r, other * diffuse.r),
                             rcp * VNDF_FMA(loss, d.lobe.scale.g, other * diffuse.g),
                             rcp * VNDF_FMA(loss, d.lobe.scale.b, other * diffuse.b));
-    VNDF_REAL often = VNDF_R(1.0) - d.lobe.share;
-    weight = vndf_impl_rgb_scaled(weight, VNDF_R(1.0) / (often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
+    // Dependent on the quotient above, for the same reason.
+    VNDF_REAL often = VNDF_R(1.0) - d.lobe.share, divisor = often > VNDF_R(0.0) ? often : VNDF_R(1.0);
+    weight = vndf_impl_rgb_scaled(weight, VNDF_R(1.0) / (rcp >= VNDF_R(0.0) ? divisor : VNDF_R(1.0)));
 #else
     (void)b;
     (void)wi;

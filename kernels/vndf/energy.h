@@ -109,12 +109,15 @@ VNDF_FN VNDF_REAL vndf_energy_average_loss(VNDF_REAL2 alpha) {
 
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
 
-// By how much single scattering is raised. Not reciprocal.
+// The weight of single scattering, raised. Not reciprocal.
 // Source: Turquin, Practical Multiple Scattering Compensation for Microfacet Models, 2019, Equation 16: 1 + F0 (1 - E) / E.
-VNDF_FN struct vndf_rgb vndf_impl_turquin(struct vndf_rgb f0, VNDF_REAL loss) {
+VNDF_FN struct vndf_rgb vndf_impl_turquin(struct vndf_rgb weight, struct vndf_rgb f0, VNDF_REAL loss) {
     VNDF_REAL rest = VNDF_R(1.0) - loss, raised = loss / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
-    return vndf_impl_rgb(VNDF_FMA(f0.r, raised, VNDF_R(1.0)), VNDF_FMA(f0.g, raised, VNDF_R(1.0)),
-                         VNDF_FMA(f0.b, raised, VNDF_R(1.0)));
+    // Each channel depends on the last, so that LLVM's SLP pass does not pack them; the other choice is never taken.
+    VNDF_REAL red = weight.r * VNDF_FMA(f0.r, raised, VNDF_R(1.0));
+    VNDF_REAL green = (red >= VNDF_R(0.0) ? weight.g : red) * VNDF_FMA(f0.g, raised, VNDF_R(1.0));
+    VNDF_REAL blue = (green >= VNDF_R(0.0) ? weight.b : green) * VNDF_FMA(f0.b, raised, VNDF_R(1.0));
+    return vndf_impl_rgb(red, green, blue);
 }
 
 #elif VNDF_CHOSEN(VNDF_ENERGY, kulla_conty)
