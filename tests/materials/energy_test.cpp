@@ -1,6 +1,7 @@
 // What is claimed of the tables of energy: they are what the device measures, which is what quadrature finds; and with them no
 // light is lost.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -198,6 +199,89 @@ TEST_CASE("a kept table is read back, and a damaged one is found out") {
     changed = text;
     changed.replace(text.find("table 1"), 7, "table 0");
     refused(surfaces[0], changed);
+}
+
+namespace {
+
+// Metals by eta and k: gold's red, green and blue.
+constexpr double metal[3][2] = {{.18, 3.42}, {.42, 2.35}, {1.37, 1.77}};
+using Albedos = std::array<double, 3>;  // for each channel
+
+Columns metal_rows(const Point& p, std::size_t count, bool walk) {
+    Columns in(walk ? 5 + bsdf_parameters.size() : 6 + bsdf_parameters.size(), std::vector<double>(count, 1));
+    const std::size_t first = in.size() - bsdf_parameters.size();
+    const double values[3] = {p.w.x, p.w.y, p.w.z};
+    SplitMix64 draw(1);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (int c = 0; c < 3; ++c) in[c][i] = values[c];
+        for (std::size_t c = 3; c < first; ++c)
+            in[c][i] = walk ? static_cast<double>(c == 3 ? i : 1) : draw.uniform();
+        in[first][i] = p.alpha_x, in[first + 1][i] = p.alpha_y;
+        for (int c = 0; c < 3; ++c) in[first + 2 + c][i] = metal[c][0], in[first + 5 + c][i] = metal[c][1];
+        in[first + 15][i] = in[first + 16][i] = 0;
+    }
+    return in;
+}
+
+Albedos mean_weights(const Columns& out) {
+    Albedos means{};
+    for (int c = 0; c < 3; ++c)
+        for (const double x : out[3 + c]) means[c] += x / static_cast<double>(out[3 + c].size());
+    return means;
+}
+
+// How far the albedo of each model is from the walk's, at the worst of some directions.
+std::map<std::string, Albedos> gaps(double alpha_x, double alpha_y, std::size_t count) {
+    const std::string base = "FRESNEL=conductor";
+    static const BsdfProgram walk(base, {}, 0, runtime::Real::f32, "kernels/batch/walk.cl");
+    static const std::map<std::string, BsdfProgram> models = [&] {
+        std::map<std::string, BsdfProgram> all;
+        for (const char* model : {"none", "turquin", "kulla_conty"})
+            all.try_emplace(model, base + " ENERGY=" + model);
+        return all;
+    }();
+    std::map<std::string, Albedos> worst;
+    for (const double cosine : {.1, .3, .6, 1.})
+        for (const double phi : {0., pi / 2}) {
+            const Point p{direction(cosine, phi), alpha_x, alpha_y};
+            const Albedos truth =
+                mean_weights(walk.run("vndf_batch_walk_conductor_sample", metal_rows(p, count, true), 7));
+            for (const auto& [model, program] : models) {
+                const Albedos found = mean_weights(program.sample(metal_rows(p, count, false)));
+                for (int c = 0; c < 3; ++c)
+                    worst[model][c] = std::max(worst[model][c], std::abs(found[c] - truth[c]));
+            }
+        }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("what gives energy back is nearer to the walk than what does not") {
+    for (const auto& [x, y] : {std::pair{.5, .5}, {1., 1.}, {.8, .2}}) {
+        const auto worst = gaps(x, y, 1 << 15);
+        CAPTURE(x, y);
+        for (int c = 0; c < 3; ++c)
+            for (const char* model : {"turquin", "kulla_conty"}) {
+                CAPTURE(model, c);
+                CHECK(worst.at(model)[c] < .75 * worst.at("none")[c]);
+                CHECK(worst.at(model)[c] < .08);
+            }
+    }
+}
+
+// By hand: the table of kernels/README.md.
+TEST_CASE("the gap to the walk", "[.energy-gap]") {
+    fmt::print("| alpha | none | turquin | kulla_conty |\n| --- | --- | --- | --- |\n");
+    for (const auto& [x, y] :
+         {std::pair{.1, .1}, {.3, .3}, {.5, .5}, {1., 1.}, {.4, .2}, {.5, .125}, {1., .25}, {1., .1}}) {
+        const auto worst = gaps(x, y, items_by_hand());
+        fmt::print("| {}, {} |", x, y);
+        for (const char* model : {"none", "turquin", "kulla_conty"})
+            fmt::print(" {:.3f}, {:.3f}, {:.3f} |", worst.at(model)[0], worst.at(model)[1],
+                       worst.at(model)[2]);
+        fmt::print("\n");
+    }
 }
 
 // By hand: the errors that energy.h states.
