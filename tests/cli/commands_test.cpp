@@ -85,7 +85,7 @@ TEST_CASE("every command runs to its end with every option") {
         "energy --no-cache --output measured.h",
         "render --help",
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
-        "separable --random philox "
+        "separable --energy kulla_conty --random philox "
         "--math builtin --orbs anisotropy --effects all --device \"$device\"",
         "render --output a.exr --size 8x4 --time 0.01 --explain",
         "render --output b.png --size 8x4 --target-error 0.5",
