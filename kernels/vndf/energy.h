@@ -55,10 +55,10 @@ struct vndf_impl_between {
 VNDF_FN struct vndf_impl_between vndf_impl_between_of(VNDF_REAL place, int count) {
     struct vndf_impl_between b;
     VNDF_REAL bounded = vndf_impl_share(place > VNDF_R(0.0) ? place : VNDF_R(0.0));
-    VNDF_REAL at = bounded * (VNDF_REAL)(count - 1);
-    b.first = (int)at;
+    VNDF_REAL scaled = bounded * (VNDF_REAL)(count - 1);
+    b.first = (int)scaled;
     b.first = b.first < count - 2 ? b.first : count - 2;
-    b.share = at - (VNDF_REAL)b.first;
+    b.share = scaled - (VNDF_REAL)b.first;
     return b;
 }
 
@@ -82,17 +82,17 @@ VNDF_FN VNDF_REAL vndf_impl_energy_column(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 
 // The loss 1 - E(w) of a conductor that reflects everything, by the table.
 // w: unit vector, local frame. alpha: the table ends at 2.
-// return: in [0, 1]; below the horizon as at it, 0.
+// return: in [0, 1]; below the horizon as at it.
 VNDF_FN VNDF_REAL vndf_energy_loss(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     struct vndf_impl_between row = vndf_impl_between_of(vndf_impl_energy_row(alpha), VNDF_ENERGY_ROWS);
     // Made dependent on the row, and the second row's value on the first's, so that LLVM's SLP pass does not pack what is alike; the
     // other choices are never taken.
     VNDF_REAL place = row.share >= VNDF_R(0.0) ? vndf_impl_energy_column(w, alpha) : VNDF_R(0.0);
     struct vndf_impl_between column = vndf_impl_between_of(place, VNDF_ENERGY_COLUMNS);
-    int at = row.first * VNDF_ENERGY_COLUMNS + column.first;
-    VNDF_REAL a = vndf_energy_losses[at], b = vndf_energy_losses[at + 1];
+    int cell = row.first * VNDF_ENERGY_COLUMNS + column.first;
+    VNDF_REAL a = vndf_energy_losses[cell], b = vndf_energy_losses[cell + 1];
     VNDF_REAL low = VNDF_FMA(column.share, b - a, a);
-    int next = low >= VNDF_R(0.0) ? at + VNDF_ENERGY_COLUMNS : 0;
+    int next = low >= VNDF_R(0.0) ? cell + VNDF_ENERGY_COLUMNS : 0;
     VNDF_REAL c = vndf_energy_losses[next], d = vndf_energy_losses[next + 1];
     VNDF_REAL high = VNDF_FMA(column.share, d - c, c);
     return VNDF_FMA(row.share, high - low, low);
@@ -101,10 +101,10 @@ VNDF_FN VNDF_REAL vndf_energy_loss(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 // The mean by the cosine law of what vndf_energy_loss gives, 1 - E_avg.
 VNDF_FN VNDF_REAL vndf_energy_average_loss(VNDF_REAL2 alpha) {
     VNDF_REAL place = vndf_impl_energy_row(alpha);
-    struct vndf_impl_between at = vndf_impl_between_of(place, VNDF_ENERGY_AVERAGES);
-    VNDF_REAL a = vndf_energy_averages[at.first], b = vndf_energy_averages[at.first + 1];
+    struct vndf_impl_between row = vndf_impl_between_of(place, VNDF_ENERGY_AVERAGES);
+    VNDF_REAL a = vndf_energy_averages[row.first], b = vndf_energy_averages[row.first + 1];
     // The table has it over alpha / 2.
-    return place * place * VNDF_FMA(at.share, b - a, a);
+    return place * place * VNDF_FMA(row.share, b - a, a);
 }
 
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
