@@ -163,6 +163,7 @@ CommandLine::CommandLine()
     add_check(app_, common_);
     add_policies(app_, common_);
     add_emit(app_, common_);
+    add_energy(app_, common_);
     add_render(app_, common_);
 #ifdef CLVNDF_BENCH
     add_bench(app_, common_);

@@ -42,6 +42,7 @@ void add_eval(CLI::App& app, Common& common);
 void add_check(CLI::App& app, Common& common);
 void add_policies(CLI::App& app, Common& common);
 void add_emit(CLI::App& app, Common& common);
+void add_energy(CLI::App& app, Common& common);
 void add_render(CLI::App& app, Common& common);
 void add_bench(CLI::App& app, Common& common);  // defined where Google Benchmark is there
 

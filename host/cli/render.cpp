@@ -201,6 +201,9 @@ void add_render(CLI::App& app, Common& common) {
     choice("--ndf", r->choices.ndf, "distribution of normals: ggx or beckmann", {"ggx", "beckmann"});
     choice("--masking", r->choices.masking, "masking and shadowing: correlated or separable",
            {"correlated", "separable"});
+    choice("--energy", r->choices.energy,
+           "what scatters between facets: none (it is lost), turquin or kulla_conty",
+           {"none", "turquin", "kulla_conty"});
     choice("--random", r->choices.random, "random numbers: sobol, scrambled after Owen, or philox",
            {"sobol", "philox"});
     choice("--math", r->math, "policy of elementary functions: strict, builtin or native",

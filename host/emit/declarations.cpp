@@ -8,12 +8,17 @@
 namespace vndf::emit {
 namespace {
 
-// The name that a declaration declares: before its first parenthesis, behind `struct`, or at the end of a typedef.
+bool is_array(const std::vector<Token>& tokens) {
+    return is(tokens[0], "VNDF_CONSTANT");
+}
+
+// The name that a declaration declares: before its first parenthesis or an array's bracket, behind `struct`, or at the end of a
+// typedef.
 std::string name_of(const std::vector<Token>& tokens) {
     std::string last;
     const bool type = is(tokens[0], "typedef"), record = is(tokens[0], "struct");
     for (const Token& token : tokens) {
-        if (!type && is(token, "(")) return last;
+        if (!type && is(token, is_array(tokens) ? "[" : "(")) return last;
         if (token.kind != TokenKind::identifier) continue;
         last = token.text;
         if (record && last != "struct") return last;
@@ -52,14 +57,15 @@ class Splitter {
         if (token.kind != TokenKind::punctuation) return;
         depth_ += token.text == "(" || token.text == "{" || token.text == "[";
         depth_ -= token.text == ")" || token.text == "}" || token.text == "]";
-        const bool body = token.text == "}" && !is(current_[0], "struct") && !is(current_[0], "typedef");
+        const bool body = token.text == "}" && !is(current_[0], "struct") && !is(current_[0], "typedef") &&
+                          !is_array(current_);
         if (depth_ == 0 && (token.text == ";" || body)) finish();
     }
 
     void finish() {
         // The first token that no macro made knows the line. Comments belong to what begins on the next one.
         const auto first = std::find_if(current_.begin(), current_.end(), [](const Token& token) {
-            return token.text != "VNDF_FN" && (token.text == "struct" || token.text.starts_with("vndf_"));
+            return token.text == "struct" || token.text.starts_with("vndf_");
         });
         Declaration declaration{name_of(current_), "", {}, {}};
         if (first != current_.end()) {

@@ -42,7 +42,8 @@ auto material_of(const Options& options) {
 
 std::vector<std::string> macros(const Options& options) {
     std::vector<std::string> all = {fmt::format("VNDF_REAL={}", to_string(options.real)),
-                                    fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN"};
+                                    fmt::format("VNDF_MATH={}", to_string(options.math)), "VNDF_FN=VNDF_FN",
+                                    "VNDF_CONSTANT=VNDF_CONSTANT"};
     if (material_of(options) != options.functions.end())
         for (const std::string& effect :
              parse_effects(options.effects.empty() ? "all" : options.effects).macros())
@@ -175,6 +176,16 @@ std::string prologue(const Options& options, bool copies_bits) {
     return out;
 }
 
+// How arrays are declared, where there are any.
+std::string arrays(const Options& options, const std::string& body) {
+    if (body.find("VNDF_CONSTANT ") == body.npos) return {};
+    const bool opencl = options.language == Language::opencl || options.language == Language::string;
+    return fmt::format("#ifndef VNDF_CONSTANT\n#define VNDF_CONSTANT {}\n#endif\n",
+                       opencl                               ? "__constant"
+                       : options.language == Language::cuda ? "static __device__ const"
+                                                            : "static const");
+}
+
 std::string epilogue(const Options& options) {
     const bool opencl = options.language == Language::opencl || options.language == Language::string;
     return opencl ? "#pragma OPENCL FP_CONTRACT DEFAULT\n#ifdef __x86_64__\n#pragma "
@@ -290,8 +301,8 @@ std::string emit(const Options& options) {
     }
     if (options.selftest) body += selftest(options) + '\n';
     const bool copies_bits = body.find("memcpy(") != body.npos;
-    const std::string rest =
-        introduction(options) + prologue(options, copies_bits) + '\n' + body + epilogue(options);
+    const std::string rest = introduction(options) + prologue(options, copies_bits) + arrays(options, body) +
+                             '\n' + body + epilogue(options);
     const std::string text = commented(stamp(options)) + renamed(rest, options.prefix);
     return options.language == Language::string ? as_string(text, options) : text;
 }

@@ -114,7 +114,8 @@ class Printer {
     }
 
     void word(const Token& token) {
-        const bool block = token.text == "{" && brackets_ == 0 && blocks_ == 0;
+        const bool values = before_ && before_->text == "=";  // of an array
+        const bool block = token.text == "{" && brackets_ == 0 && blocks_ == 0 && !values;
         const bool end = token.text == "}" && brackets_ == 0;
         if (end) {
             flush();

@@ -1,6 +1,7 @@
 // Reflectances and the materials made of them, from their definitions.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -62,6 +63,7 @@ struct MaterialModel {
     enum class Sampling { plain, bounded, conic } sampling = Sampling::bounded;
     enum class Fresnel { none, conductor, schlick, f82 } fresnel = Fresnel::schlick;
     enum class Masking { correlated, separable } masking = Masking::correlated;
+    enum class Energy { none, turquin, kulla_conty } energy = Energy::none;
 };
 
 template <class R>
@@ -75,6 +77,42 @@ struct MaterialParameters {
     R metal;
     Vec3<R> ng;
 };
+
+// What single scattering loses along wo and wi, both above the surface, and in the mean: given, not derived here.
+template <class R>
+struct Losses {
+    R o = 0, i = 0, average = 0;
+};
+
+// The mean 2 integral of f(c) c dc by the Gaussian rule of four nodes: the roots of the polynomial of degree 4 that the weight c
+// makes orthogonal to all lesser ones, and the integrals of Lagrange's polynomials.
+template <class R, class F>
+R cosine_mean(F f) {
+    const auto polynomial = [](const R& x) { return (((126 * x - 280) * x + 210) * x - 60) * x + 5; };
+    const R brackets[5] = {0, R(.25), R(.55), R(.85), 1};
+    R node[4], mean = 0;
+    for (int i = 0; i < 4; ++i) {
+        R low = brackets[i], high = brackets[i + 1];
+        for (int step = 0; step < 70; ++step) {
+            const R middle = (low + high) / 2;
+            (polynomial(middle) * polynomial(low) > 0 ? low : high) = middle;
+        }
+        node[i] = (low + high) / 2;
+    }
+    for (int i = 0; i < 4; ++i) {
+        // Integrated by Gauss and Legendre's rule of three nodes, exact to the fifth power.
+        R share = 0;
+        for (int k = -1; k <= 1; ++k) {
+            const R x = (1 + k * std::sqrt(R(3) / 5)) / 2;
+            R lagrange = 2 * x * (k == 0 ? R(4) / 9 : R(5) / 18);
+            for (int j = 0; j < 4; ++j)
+                if (j != i) lagrange *= (x - node[j]) / (node[i] - node[j]);
+            share += lagrange;
+        }
+        mean += share * f(node[i]);
+    }
+    return mean;
+}
 
 // f: BSDF times |cos(theta_i)|. Exponent: q of D, and of sigma behind the surface.
 template <class R>
@@ -101,18 +139,22 @@ class MaterialView {
         p_.metal = within<R>(p.metal, 0, 1);
         view_ = view(wo_, p_.alpha_x, p_.alpha_y);
         bound_ = reference::bound(view_, wo_);
+        if (model.energy == MaterialModel::Energy::kulla_conty)
+            for (int c = 0; c < 3; ++c)
+                average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
         if (wo_.z > 0 && model.sampling == MaterialModel::Sampling::conic)
             visible_ = ggx_sigma_visible(view_);
     }
 
-    MaterialValue<R> operator()(const Vec3<R>& direction) const {
+    MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
         MaterialValue<R> value;
         const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
         value.exponent = model_.ndf == MaterialModel::Ndf::beckmann && h.z > 0
                              ? Beckmann::exponent(h, p_.alpha_x, p_.alpha_y)
                              : R(0);
-        value.pdf = p_.metal * conductor_pdf(wi) + (1 - p_.metal) * lambert_pdf(wi);
+        const R diffuse = p_.metal * diffuse_share(losses);
+        value.pdf = (p_.metal - diffuse) * conductor_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(wi, height_o, height_i);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
@@ -122,10 +164,19 @@ class MaterialView {
             model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
         const R cosine = dot(wo_, h);
         for (int c = 0; c < 3; ++c) {
-            const R scale = passing * p_.metal * p_.tint[c] * mirror;
+            R scale = passing * p_.metal * p_.tint[c] * mirror;
+            if (model_.energy == MaterialModel::Energy::turquin)
+                scale *= 1 + p_.tint[c] * reflectance(c, R(1)) * losses.o / (1 - losses.o);
             value.f[c] =
                 scale * reflectance(c, cosine) + passing * (1 - p_.metal) * p_.albedo[c] * wi.z / pi<R>();
             value.slope[c] = scale * reflectance_slope(c, cosine) + value.f[c] / height_i;
+            if (model_.energy == MaterialModel::Energy::turquin)
+                value.slope[c] += scale * reflectance(c, cosine) * losses.o * reflectance_slope(c, R(1));
+            if (model_.energy != MaterialModel::Energy::kulla_conty) continue;
+            const R lobe = passing * p_.metal * kulla_conty(c, losses) * losses.o * losses.i /
+                           kulla_conty_average(losses) * wi.z / pi<R>();
+            value.f[c] += lobe;
+            value.slope[c] += lobe / height_i + 4 * lobe * average_slope(c) / average_[c];
         }
         return value;
     }
@@ -168,6 +219,28 @@ class MaterialView {
         }
         return sum / (2 * step);
     }
+    R average_slope(int c) const {
+        return p_.tint[c] * cosine_mean<R>([&](const R& cosine) { return reflectance_slope(c, cosine); });
+    }
+    // Kulla and Conty's colour, and the average loss that their lobe is divided by: not less than 2^-9.
+    R kulla_conty(int c, const Losses<R>& losses) const {
+        const R f = average_[c];
+        return f * f * (1 - losses.average) / (1 - f * losses.average);
+    }
+    static R kulla_conty_average(const Losses<R>& losses) {
+        return losses.average < R(0x1p-9) ? R(0x1p-9) : losses.average;
+    }
+    // The share of the brightest channel's light.
+    R diffuse_share(const Losses<R>& losses) const {
+        if (model_.energy != MaterialModel::Energy::kulla_conty) return 0;
+        R f = 0, colour = 0;
+        for (int c = 0; c < 3; ++c) {
+            f = std::max(f, average_[c]);
+            colour = std::max(colour, kulla_conty(c, losses));
+        }
+        const R own = losses.o * colour, whole = own + f * (1 - losses.o);
+        return whole > 0 ? own / whole : R(0);
+    }
     // D G2 / (4 cos(theta_o))
     template <class N>
     R mirrored(const Vec3<R>& h, const Vec3<R>& wi) const {
@@ -196,6 +269,7 @@ class MaterialView {
     Vec3<R> wo_, ng_;
     View<R> view_;
     Bound<R> bound_{};
+    Rgb<R> average_{};  // reflectances, by the cosine law
     R visible_ = 0;
 };
 

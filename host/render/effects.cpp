@@ -124,6 +124,7 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
             fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
     std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
                                    scene.fresnel, choices.masking);
+    if (choices.energy != "none") text += " -DVNDF_ENERGY=" + choices.energy;
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on);

@@ -18,7 +18,7 @@ struct Effect {
 
 // Of the models that results depend on, one each.
 struct Choices {
-    std::string ndf = "ggx", sampler = "bounded", masking = "correlated", random = "sobol";
+    std::string ndf = "ggx", sampler = "bounded", masking = "correlated", energy = "none", random = "sobol";
 };
 
 // How directions are drawn: the samplers of kernels/vndf/bsdf_conductor.h, and two to compare with (kernels/render/material.h).

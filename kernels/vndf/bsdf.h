@@ -19,8 +19,15 @@
 #include "impl/exact.h"
 #if VNDF_CONDUCTOR
 #include "bsdf_conductor.h"
+#if !VNDF_CHOSEN(VNDF_ENERGY, none)
+#include "energy.h"
 #endif
-#if VNDF_LAMBERT
+#endif
+
+// What is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
+#define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
+#define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
+#if VNDF_IMPL_DIFFUSE
 #include "bsdf_lambert.h"
 #endif
 
@@ -64,7 +71,8 @@ struct vndf_bsdf_value {
     VNDF_REAL pdf;
 };
 
-// A direction, BSDF times |cos(theta_i)| over its density, the density per steradian, and the lobe (0 the conductor, 1 Lambert).
+// A direction, BSDF times |cos(theta_i)| over its density, the density per steradian, and the lobe: 0 the conductor's, 1 by the
+// cosine law, Lambert's and of VNDF_ENERGY kulla_conty.
 struct vndf_bsdf_direction {
     VNDF_REAL wi_x, wi_y, wi_z;
     struct vndf_rgb weight;
@@ -92,7 +100,7 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
 }
 
 // A conductor with one normal has the weight 0 below its horizon by itself.
-#define VNDF_IMPL_SIDES (VNDF_LAMBERT || VNDF_SHADING_NORMAL)
+#define VNDF_IMPL_SIDES (VNDF_IMPL_DIFFUSE || VNDF_SHADING_NORMAL)
 
 #if VNDF_IMPL_SIDES
 
@@ -176,38 +184,147 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL
 #endif
 }
 
+#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
+// The reflectance at normal incidence. last: of the other angle, on which it is made dependent, so that LLVM's SLP pass does not
+// pack the two; the other choice is never taken.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_upright_reflectance(struct vndf_bsdf b, VNDF_REAL last) {
+#if VNDF_CHOSEN(VNDF_FRESNEL, schlick) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
+    struct vndf_rgb f = vndf_impl_rgb(vndf_impl_reflectance(b.f0.r), vndf_impl_reflectance(b.f0.g),
+                                      vndf_impl_reflectance(b.f0.b));
+    (void)last;
+#if VNDF_TINT
+    f = vndf_impl_rgb_product(f, b.tint);
+#endif
+    return f;
+#else
+    return vndf_impl_bsdf_reflectance(b, last >= VNDF_R(0.0) ? VNDF_R(1.0) : last);
+#endif
+}
+#endif
+
 // Its weight: BSDF times cos(theta_i) over its own density.
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_conductor_weight(struct vndf_bsdf b, struct vndf_impl_conductor c,
                                                         VNDF_REAL3 wo, VNDF_REAL3 wi) {
-    return vndf_impl_rgb_scaled(vndf_impl_bsdf_reflectance(b, vndf_impl_half_cosine(wo, wi)),
-                                vndf_impl_conductor_weight(c, wi));
+    struct vndf_rgb weight = vndf_impl_rgb_scaled(
+        vndf_impl_bsdf_reflectance(b, vndf_impl_half_cosine(wo, wi)), vndf_impl_conductor_weight(c, wi));
+#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
+    VNDF_REAL loss = vndf_energy_loss(wo, vndf_impl_bsdf_alpha(b));
+    weight = vndf_impl_turquin(weight, vndf_impl_bsdf_upright_reflectance(b, weight.b), loss);
+#endif
+    return weight;
 }
+
+#if VNDF_IMPL_KULLA_CONTY
+
+// The mean of the reflectance by the cosine law: Gauss and Jacobi's rule of four cosines, exact for schlick and f82, and within
+// 7e-4 for metals of eta in [0.05, 5] and k in [0.5, 10].
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_average_and(struct vndf_rgb sum, struct vndf_bsdf b, VNDF_REAL cosine,
+                                                   VNDF_REAL share) {
+    // Dependent on the sum before, so that LLVM's SLP pass does not pack the nodes; the other choice is never taken.
+    struct vndf_rgb f = vndf_impl_bsdf_reflectance(b, sum.b >= VNDF_R(0.0) ? cosine : VNDF_R(1.0));
+    return vndf_impl_rgb(VNDF_FMA(share, f.r, sum.r), VNDF_FMA(share, f.g, sum.g),
+                         VNDF_FMA(share, f.b, sum.b));
+}
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_average_reflectance(struct vndf_bsdf b) {
+    struct vndf_rgb sum = vndf_impl_rgb(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(0.0));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.13975986434378057), VNDF_R(0.062361941900016114));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.41640956763108317), VNDF_R(0.259695095216465));
+    sum = vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.7231569863618762), VNDF_R(0.40692913602054293));
+    return vndf_impl_bsdf_average_and(sum, b, VNDF_R(0.94289580388548233), VNDF_R(0.27101382686297598));
+}
+
+VNDF_FN struct vndf_impl_kulla_conty vndf_impl_bsdf_kulla_conty(struct vndf_bsdf b, VNDF_REAL3 wo) {
+    VNDF_REAL2 alpha = vndf_impl_bsdf_alpha(b);
+    return vndf_impl_kulla_conty_of(vndf_impl_bsdf_average_reflectance(b), vndf_energy_loss(wo, alpha),
+                                    vndf_energy_average_loss(alpha));
+}
+
+#endif
 
 #endif
 
 // --- The mix ---
 
-#if VNDF_CONDUCTOR && VNDF_LAMBERT
-// Its weight and density from those of its parts: the weight of Lambert's is the albedo. For metal = 1 and 0 those of one part,
-// to the bit.
-VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_bsdf b, struct vndf_rgb weight, VNDF_REAL metal,
-                                             VNDF_REAL conductor_pdf, VNDF_REAL lambert_pdf) {
-    VNDF_REAL own = metal * conductor_pdf, other = (VNDF_R(1.0) - metal) * lambert_pdf, sum = own + other;
+#if VNDF_CONDUCTOR && VNDF_IMPL_DIFFUSE
+// The share of the conductor.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_conducting(struct vndf_bsdf b) {
+#if VNDF_LAMBERT
+    return vndf_impl_share(vndf_impl_max(b.metal, VNDF_R(0.0)));
+#else
+    (void)b;
+    return VNDF_R(1.0);
+#endif
+}
+
+// What the cosine law draws of a material seen from wo.
+struct vndf_impl_bsdf_diffuse {
+    VNDF_REAL mirrored, rest;  // the chance of the other lobe and of this one
+#if VNDF_IMPL_KULLA_CONTY
+    struct vndf_impl_kulla_conty lobe;
+#endif
+};
+VNDF_FN struct vndf_impl_bsdf_diffuse vndf_impl_bsdf_diffuse_of(struct vndf_bsdf b, VNDF_REAL3 wo) {
+    struct vndf_impl_bsdf_diffuse d;
+    d.mirrored = vndf_impl_bsdf_conducting(b);
+    d.rest = VNDF_R(1.0) - d.mirrored;
+#if VNDF_IMPL_KULLA_CONTY
+    d.lobe = vndf_impl_bsdf_kulla_conty(b, wo);
+    d.rest = VNDF_FMA(d.mirrored, d.lobe.share, d.rest);
+    d.mirrored *= VNDF_R(1.0) - d.lobe.share;
+#else
+    (void)wo;
+#endif
+    return d;
+}
+
+// Its weight and density from those of its parts: the weight of what the cosine law draws is `diffuse`. Where one part has no
+// share those of the other, to the bit.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_impl_bsdf_diffuse d, struct vndf_rgb diffuse,
+                                             struct vndf_rgb weight, VNDF_REAL conductor_pdf,
+                                             VNDF_REAL diffuse_pdf) {
+    VNDF_REAL own = d.mirrored * conductor_pdf, other = d.rest * diffuse_pdf, sum = own + other;
     // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
     // has left nothing of either density it is the conductor's.
     int less = other <= own;
     VNDF_REAL lesser = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
               greater = VNDF_R(1.0) - lesser;
     VNDF_REAL share = less ? lesser : greater, rest = less ? greater : lesser;
-    return vndf_impl_rgb(VNDF_FMA(share, b.albedo.r, rest * weight.r),
-                         VNDF_FMA(share, b.albedo.g, rest * weight.g),
-                         VNDF_FMA(share, b.albedo.b, rest * weight.b));
+    return vndf_impl_rgb(VNDF_FMA(share, diffuse.r, rest * weight.r),
+                         VNDF_FMA(share, diffuse.g, rest * weight.g),
+                         VNDF_FMA(share, diffuse.b, rest * weight.b));
 }
-VNDF_FN VNDF_REAL vndf_impl_bsdf_metal(struct vndf_bsdf b) {
-    return vndf_impl_share(vndf_impl_max(b.metal, VNDF_R(0.0)));
+VNDF_FN VNDF_REAL vndf_impl_bsdf_mixed_pdf(struct vndf_impl_bsdf_diffuse d, VNDF_REAL conductor_pdf,
+                                           VNDF_REAL diffuse_pdf) {
+    return VNDF_FMA(d.mirrored, conductor_pdf, d.rest * diffuse_pdf);
 }
-VNDF_FN VNDF_REAL vndf_impl_bsdf_mixed_pdf(VNDF_REAL metal, VNDF_REAL conductor_pdf, VNDF_REAL lambert_pdf) {
-    return VNDF_FMA(metal, conductor_pdf, (VNDF_R(1.0) - metal) * lambert_pdf);
+
+// The weight of the mix at wi from that of the conductor's mirrored lobe.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed_weight(struct vndf_bsdf b, struct vndf_impl_bsdf_diffuse d,
+                                                    VNDF_REAL3 wi, struct vndf_rgb weight,
+                                                    VNDF_REAL conductor_pdf, VNDF_REAL diffuse_pdf) {
+#if VNDF_LAMBERT
+    struct vndf_rgb diffuse = b.albedo;
+#else
+    struct vndf_rgb diffuse = vndf_impl_rgb(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(0.0));
+#endif
+#if VNDF_IMPL_KULLA_CONTY
+    // Of both parts' light that of one draw: less often drawn, heavier.
+    VNDF_REAL conductor = vndf_impl_bsdf_conducting(b), other = VNDF_R(1.0) - conductor;
+    // Made dependent on the look-up of wo, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    VNDF_REAL z = d.lobe.share >= VNDF_R(0.0) ? wi.z : VNDF_R(1.0);
+    VNDF_REAL loss = conductor * vndf_energy_loss(VNDF_MAKE3(wi.x, wi.y, z), vndf_impl_bsdf_alpha(b)),
+              rcp = VNDF_R(1.0) / (d.rest > VNDF_R(0.0) ? d.rest : VNDF_R(1.0));
+    diffuse = vndf_impl_rgb(rcp * VNDF_FMA(loss, d.lobe.scale.r, other * diffuse.r),
+                            rcp * VNDF_FMA(loss, d.lobe.scale.g, other * diffuse.g),
+                            rcp * VNDF_FMA(loss, d.lobe.scale.b, other * diffuse.b));
+    // Dependent on the quotient above, for the same reason.
+    VNDF_REAL often = VNDF_R(1.0) - d.lobe.share, divisor = often > VNDF_R(0.0) ? often : VNDF_R(1.0);
+    weight = vndf_impl_rgb_scaled(weight, VNDF_R(1.0) / (rcp >= VNDF_R(0.0) ? divisor : VNDF_R(1.0)));
+#else
+    (void)b;
+    (void)wi;
+#endif
+    return vndf_impl_bsdf_mixed(d, diffuse, weight, conductor_pdf, diffuse_pdf);
 }
 #endif
 
@@ -225,10 +342,11 @@ VNDF_FN struct vndf_bsdf_value vndf_bsdf_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, 
     struct vndf_impl_conductor c = vndf_impl_conductor_of(o, vndf_impl_bsdf_alpha(bsdf));
     struct vndf_rgb weight = vndf_impl_bsdf_conductor_weight(bsdf, c, o, i);
     value.pdf = vndf_impl_conductor_pdf(c, i);
-#if VNDF_LAMBERT
-    VNDF_REAL metal = vndf_impl_bsdf_metal(bsdf), lambert_pdf = vndf_lambert_pdf_wi(i);
-    weight = vndf_impl_bsdf_mixed(bsdf, weight, metal, value.pdf, lambert_pdf);
-    value.pdf = vndf_impl_bsdf_mixed_pdf(metal, value.pdf, lambert_pdf);
+#if VNDF_IMPL_DIFFUSE
+    struct vndf_impl_bsdf_diffuse diffuse = vndf_impl_bsdf_diffuse_of(bsdf, o);
+    VNDF_REAL diffuse_pdf = vndf_lambert_pdf_wi(i);
+    weight = vndf_impl_bsdf_mixed_weight(bsdf, diffuse, i, weight, value.pdf, diffuse_pdf);
+    value.pdf = vndf_impl_bsdf_mixed_pdf(diffuse, value.pdf, diffuse_pdf);
 #endif
 #else
     struct vndf_rgb weight = bsdf.albedo;
@@ -261,7 +379,8 @@ VNDF_FN VNDF_REAL vndf_bsdf_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b
 // wo: unit vector, local frame, anywhere on the sphere.
 // u: for the lobe's sampler, with its meaning. Each effect has random numbers of its own: none changes by one that is
 //     switched off.
-// u_lobe: which lobe, the conductor for u_lobe < metal; of no effect where there is one lobe.
+// u_lobe: which lobe, the conductor for u_lobe < metal (kulla_conty: less its diffuse share); of no effect where there is one
+//     lobe.
 // return: the direction, anywhere on the sphere, with weight 0 where nothing is reflected; its density from the sampler's own
 //     terms where it is the conductor's.
 // Accuracy: 2 eps; double 2.
@@ -273,17 +392,17 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
     VNDF_REAL side = vndf_impl_bsdf_side(wo, bsdf);
     VNDF_REAL3 o = VNDF_MAKE3(wo.x, wo.y, side * wo.z);
     (void)u_lobe;
-#if VNDF_LAMBERT
+#if VNDF_IMPL_DIFFUSE
     struct vndf_impl_sample s = vndf_impl_lambert(u);
     d.lobe = VNDF_BSDF_LAMBERT;
 #endif
 #if VNDF_CONDUCTOR
     struct vndf_impl_conductor c = vndf_impl_conductor_of(o, vndf_impl_bsdf_alpha(bsdf));
     struct vndf_impl_sample mirrored = vndf_impl_conductor_sample(c, u);
-#if VNDF_LAMBERT
+#if VNDF_IMPL_DIFFUSE
     // The end of u_lobe may be 1.
-    VNDF_REAL metal = vndf_impl_bsdf_metal(bsdf);
-    int conductor = u_lobe < metal || metal >= VNDF_R(1.0);
+    struct vndf_impl_bsdf_diffuse diffuse = vndf_impl_bsdf_diffuse_of(bsdf, o);
+    int conductor = u_lobe < diffuse.mirrored || diffuse.mirrored >= VNDF_R(1.0);
     s.x = conductor ? mirrored.x : s.x;
     s.y = conductor ? mirrored.y : s.y;
     s.z = conductor ? mirrored.z : s.z;
@@ -294,11 +413,11 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
 #endif
     VNDF_REAL3 i = VNDF_MAKE3(s.x, s.y, s.z);
     struct vndf_rgb weight = vndf_impl_bsdf_conductor_weight(bsdf, c, o, i);
-#if VNDF_LAMBERT
+#if VNDF_IMPL_DIFFUSE
     // The weight from the density at wi as rounded, as in vndf_bsdf_eval_pdf.
-    VNDF_REAL conductor_pdf = vndf_impl_conductor_pdf(c, i), lambert_pdf = vndf_lambert_pdf_wi(i);
-    weight = vndf_impl_bsdf_mixed(bsdf, weight, metal, conductor_pdf, lambert_pdf);
-    s.pdf = vndf_impl_bsdf_mixed_pdf(metal, conductor ? mirrored.pdf : conductor_pdf, lambert_pdf);
+    VNDF_REAL conductor_pdf = vndf_impl_conductor_pdf(c, i), diffuse_pdf = vndf_lambert_pdf_wi(i);
+    weight = vndf_impl_bsdf_mixed_weight(bsdf, diffuse, i, weight, conductor_pdf, diffuse_pdf);
+    s.pdf = vndf_impl_bsdf_mixed_pdf(diffuse, conductor ? mirrored.pdf : conductor_pdf, diffuse_pdf);
 #endif
 #else
     VNDF_REAL3 i = VNDF_MAKE3(s.x, s.y, s.z);
@@ -316,6 +435,8 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
 }
 
 #undef VNDF_IMPL_SIDES
+#undef VNDF_IMPL_DIFFUSE
+#undef VNDF_IMPL_KULLA_CONTY
 
 VNDF_END
 

@@ -8,6 +8,8 @@
 //   VNDF_FRESNEL   of the conductor: none, it reflects everything; conductor, eta and k; schlick (default), f0 and f90; f82,
 //                  f0 and the tint at 82 degrees
 //   VNDF_MASKING   of the conductor: correlated (default), separable
+//   VNDF_ENERGY    what scatters between facets, of the conductor (energy.h): none (default), it is lost; turquin, single
+//                  scattering raised by it; kulla_conty, a diffuse lobe of its own
 //
 // An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
 // not call for it have the same bits:
@@ -38,6 +40,9 @@
 #define VNDF_FRESNEL_IS_f82 4
 #define VNDF_MASKING_IS_correlated 1
 #define VNDF_MASKING_IS_separable 2
+#define VNDF_ENERGY_IS_none 1
+#define VNDF_ENERGY_IS_turquin 2
+#define VNDF_ENERGY_IS_kulla_conty 3
 
 #ifndef VNDF_NDF
 #define VNDF_NDF ggx
@@ -54,6 +59,9 @@
 #endif
 #ifndef VNDF_MASKING
 #define VNDF_MASKING correlated
+#endif
+#ifndef VNDF_ENERGY
+#define VNDF_ENERGY none
 #endif
 #ifndef VNDF_CONDUCTOR
 #define VNDF_CONDUCTOR 1
@@ -95,6 +103,12 @@
 #error "clvndf: unknown VNDF_MASKING; correlated and separable are allowed"
 #undef VNDF_MASKING
 #define VNDF_MASKING correlated
+#endif
+#if VNDF_CAT(VNDF_ENERGY_IS_, VNDF_ENERGY) >= 1
+#else
+#error "clvndf: unknown VNDF_ENERGY; none, turquin and kulla_conty are allowed"
+#undef VNDF_ENERGY
+#define VNDF_ENERGY none
 #endif
 #if VNDF_CAT(VNDF_SAMPLING_IS_, VNDF_SAMPLING) >= 1
 #else

@@ -79,9 +79,13 @@ TEST_CASE("every command runs to its end with every option") {
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",
         "emit vndf_bsdf_sample --effects lambert,fresnel=none --output material.h",
+        "energy --help",
+        "energy --ndf beckmann --masking separable --output energy.h --cache kept --device \"$device\"",
+        "energy --ndf beckmann --masking separable --output again.h --cache kept",
+        "energy --no-cache --output measured.h",
         "render --help",
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
-        "separable --random philox "
+        "separable --energy kulla_conty --random philox "
         "--math builtin --orbs anisotropy --sky white --effects all --device \"$device\"",
         "render --output a.exr --size 8x4 --time 0.01 --explain",
         "render --output b.png --size 8x4 --target-error 0.5",
@@ -122,9 +126,10 @@ TEST_CASE("every command runs to its end with every option") {
         INFO(option << " is reached by none of the lines above: add it");
         CHECK(reached.contains(option));
     }
-    for (const std::string file :
-         {"device.csv", "host.csv", "check.json", "check.xml", "policies.json", "emitted.h", "material.h"})
+    for (const std::string file : {"device.csv", "host.csv", "check.json", "check.xml", "policies.json",
+                                   "emitted.h", "material.h", "kept/energy-beckmann-separable", "measured.h"})
         CHECK_FALSE(folder.read(file).empty());
+    CHECK(folder.read("again.h") == folder.read("energy.h"));
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));
 }
 
@@ -182,6 +187,28 @@ TEST_CASE("a selection of nothing is refused, with what there is to select") {
         CAPTURE(arguments);
         require_refusal(clvndf(arguments), said);
     }
+}
+
+TEST_CASE("energy refuses what there is not, and measures again what was damaged") {
+    const Folder folder;
+    const std::vector<std::pair<std::string, std::string>> refusals = {
+        {"energy --ndf phong", "--ndf"},
+        {"energy --masking none", "--masking"},
+        {"energy --output nowhere/a.h", "nowhere/a.h"},
+        {"energy --device nosuch --no-cache", "nosuch"}};
+    for (const auto& [line, said] : refusals) {
+        CAPTURE(line);
+        CHECK(shell(folder, "\"$clvndf\" " + line + " >out 2>err") == 2);
+        CHECK(folder.read("err").find(said) != std::string::npos);
+        CHECK(folder.read("err").find('\n') == folder.read("err").size() - 1);
+        CHECK(folder.read("out").empty());
+    }
+    std::filesystem::create_directory(folder / "kept");
+    folder.write("kept/energy-ggx-correlated", "clvndf energy table 0\n");
+    CHECK(shell(folder, "\"$clvndf\" energy --cache kept -o a.h 2>err") == 0);
+    CHECK(folder.read("err").find("kept/energy-ggx-correlated:1: no table") != std::string::npos);
+    CHECK(shell(folder, "\"$clvndf\" energy --cache kept -o b.h 2>err && cmp a.h b.h") == 0);
+    CHECK(folder.read("err").empty());
 }
 
 TEST_CASE("emit refuses what it cannot write, and writes the same for the same request") {

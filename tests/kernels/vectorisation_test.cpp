@@ -207,7 +207,8 @@ std::string not_vectorised_with(const std::string& list) {
 TEST_CASE("materials are vectorised across work-items on PoCL") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
     for (const char* list : {"all", "conductor", "lambert", "all,fresnel=conductor,masking=separable",
-                             "all,sampling=conic,fresnel=f82", "all,ndf=beckmann,fresnel=conductor"})
+                             "all,sampling=conic,fresnel=f82", "all,ndf=beckmann,fresnel=conductor",
+                             "all,energy=turquin", "all,energy=kulla_conty,fresnel=conductor"})
         CHECK(not_vectorised_with(list) == "");
 }
 
@@ -224,7 +225,8 @@ TEST_CASE("materials of every choice are vectorised", "[.bsdf-vectorised]") {
          {"ndf=ggx,sampling=plain", "ndf=ggx,sampling=bounded", "ndf=ggx,sampling=conic", "ndf=beckmann"})
         for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
             for (const char* masking : {"correlated", "separable"})
-                for (const std::string& list : lists)
-                    CHECK(not_vectorised_with(list + ',' + model + ",fresnel=" + fresnel +
-                                              ",masking=" + masking) == "");
+                for (const char* energy : {"none", "turquin", "kulla_conty"})
+                    for (const std::string& list : lists)
+                        CHECK(not_vectorised_with(list + ',' + model + ",fresnel=" + fresnel +
+                                                  ",masking=" + masking + ",energy=" + energy) == "");
 }

@@ -22,6 +22,7 @@ VALUES = {
     "SAMPLING": {"bounded": ["vndf_impl_ggx_bound"], "conic": ["conic2026"], "plain": []},
     "FRESNEL": {"schlick": ["vndf_fresnel_schlick", "b.f90"], "conductor": ["vndf_fresnel_conductor", "b.eta"],
                 "f82": ["vndf_fresnel_f82", "b.f82"], "none": []},
+    "ENERGY": {"turquin": ["vndf_impl_turquin"], "kulla_conty": ["vndf_impl_kulla_conty"], "none": []},
 }
 
 
@@ -75,6 +76,8 @@ def faults(switches, code):
         for word in marks:
             if word == "metal" and not conductor:
                 continue  # of a mix alone
+            if word == "lambert" and conductor and switches["ENERGY"] == "kulla_conty":
+                continue  # the cosine law draws for both
             if holds(code, word) != bool(on and needs.get(effect, 1)):
                 yield f"{effect}={on}: {word} {'stands' if holds(code, word) else 'is missing'}"
     for choice, values in VALUES.items():

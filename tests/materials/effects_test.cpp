@@ -122,7 +122,9 @@ std::vector<std::string> all_choices() {
     for (const char* model : {"ggx SAMPLING=plain", "ggx SAMPLING=bounded", "ggx SAMPLING=conic", "beckmann"})
         for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
             for (const char* masking : {"correlated", "separable"})
-                all.push_back(fmt::format("NDF={} FRESNEL={} MASKING={}", model, fresnel, masking));
+                for (const char* energy : {"none", "turquin", "kulla_conty"})
+                    all.push_back(fmt::format("NDF={} FRESNEL={} MASKING={} ENERGY={}", model, fresnel,
+                                              masking, energy));
     return all;
 }
 
@@ -135,8 +137,9 @@ TEST_CASE("results with an effect off are those with everything on, to the bit")
     const BsdfProgram all("");
     for (const std::string& effect : effects) compare(all, "", {effect}, items);
     compare(all, "", front_conductor, items);
-    const std::string other = "NDF=beckmann FRESNEL=conductor MASKING=separable";
-    compare(BsdfProgram(other), other, front_conductor, items);
+    for (const std::string other :
+         {"NDF=beckmann FRESNEL=conductor MASKING=separable", "ENERGY=turquin", "ENERGY=kulla_conty"})
+        compare(BsdfProgram(other), other, front_conductor, items);
 }
 
 // Shown able to fail: with inputs that do call for the effect, and with a changed formula.
@@ -154,13 +157,13 @@ TEST_CASE("a comparison of bits notices an effect that is called for, and a form
     const Off off{"LAMBERT"};
     const Inputs metals(off, 1 << 12, 1);
     const BsdfProgram changed("",
-                              {{"kernels/vndf/bsdf.h", "VNDF_FMA(share, b.albedo.r, rest * weight.r)",
-                                "VNDF_FMA(share, b.albedo.r - weight.r, weight.r) * VNDF_R(0.99999994)", 1}},
+                              {{"kernels/vndf/bsdf.h", "VNDF_FMA(share, diffuse.r, rest * weight.r)",
+                                "VNDF_FMA(share, diffuse.r - weight.r, weight.r) * VNDF_R(0.99999994)", 1}},
                               1);
     CHECK(different(BsdfProgram("LAMBERT=0").sample(metals.sampled()), changed.sample(metals.sampled())) > 0);
 }
 
-// By hand: 32 choices, each effect alone, all pairs and all together.
+// By hand: 96 choices, each effect alone, all pairs and all together.
 TEST_CASE("results with effects off are those with everything on, for every choice", "[.effects-full]") {
     const std::size_t items = items_by_hand();
     for (const std::string& choices : all_choices()) {

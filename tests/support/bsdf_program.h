@@ -26,9 +26,10 @@ class BsdfProgram {
   public:
     // switches: "NDF=beckmann LAMBERT=0".
     explicit BsdfProgram(const std::string& switches, const std::vector<runtime::Substitution>& mutants = {},
-                         int mutant = 0, runtime::Real real = runtime::Real::f32)
+                         int mutant = 0, runtime::Real real = runtime::Real::f32,
+                         const std::string& root = "kernels/batch/bsdf.cl")
         : program_(runtime::choose_device().device, runtime::Math::strict, real,
-                   options(switches, mutants, mutant)) {}
+                   options(root, switches, mutants, mutant)) {}
     runtime::Real real() const { return program_.real(); }
 
     // wo, wi, the material -> f (3), pdf
@@ -36,11 +37,17 @@ class BsdfProgram {
     // wo, u1, u2, u_lobe, the material -> wi (3), weight (3), pdf, lobe
     Columns sample(const Columns& in) const { return run("vndf_batch_bsdf_sample", in, 8); }
 
+    // Any entry point of the root: one work-item for each row.
+    Columns run(const char* name, const Columns& in, std::size_t outputs) const {
+        return real() == runtime::Real::f32 ? run_as<float>(name, in, outputs)
+                                            : run_as<double>(name, in, outputs);
+    }
+
   private:
-    static runtime::ProgramOptions options(const std::string& switches,
+    static runtime::ProgramOptions options(const std::string& root, const std::string& switches,
                                            const std::vector<runtime::Substitution>& mutants, int mutant) {
         runtime::ProgramOptions options;
-        options.root = "kernels/batch/bsdf.cl";
+        options.root = root;
         std::string word;
         for (const char c : switches + ' ') {
             if (c != ' ') {
@@ -55,10 +62,6 @@ class BsdfProgram {
         return options;
     }
 
-    Columns run(const char* name, const Columns& in, std::size_t outputs) const {
-        return real() == runtime::Real::f32 ? run_as<float>(name, in, outputs)
-                                            : run_as<double>(name, in, outputs);
-    }
     template <class T>
     Columns run_as(const char* name, const Columns& in, std::size_t outputs) const {
         const std::size_t items = in.front().size(), bytes = runtime::whole_groups(items) * sizeof(T);

@@ -66,6 +66,8 @@ inline const std::map<std::string, Values>& values() {
         {"--sampler", {{"bounded", "plain", "conic", "ndf", "cosine"}, {"", "vndf", "Plain"}}},
         {"--ndf", {{"ggx", "beckmann"}, {"", "gtr"}}},
         {"--masking", {{"correlated", "separable"}, {"", "smith"}}},
+        {"--energy", {{"none", "turquin", "kulla_conty"}, {"", "kulla"}}},
+        {"--cache", {{"a", "a/b"}, {""}}},
         {"--random", {{"sobol", "philox"}, {"", "halton"}}},
         {"--orbs", {{"roughness", "metals"}, {"", "glass of water"}}},
         {"--sky", {{"day", "white"}, {"", "night"}}},

@@ -1,0 +1,44 @@
+// The entry point behind the tables of energy.h: directional albedos of a conductor that reflects everything, by midpoints over
+// the unit square of the sampler that is chosen.
+//
+//   vndf_batch_albedo   wo, alpha -> the loss 1 - E(wo), with VNDF_ALBEDO_POINTS squared midpoints
+#include "../vndf/bsdf_conductor.h"
+
+#ifndef VNDF_ALBEDO_POINTS
+#define VNDF_ALBEDO_POINTS 64
+#endif
+
+// A midpoint v moved to v^2 (3 - 2 v): close to the ends of the square, where samplers are singular, points are close.
+struct vndf_batch_point {
+    VNDF_REAL u, weight;
+};
+VNDF_FN struct vndf_batch_point vndf_batch_point_of(VNDF_REAL v) {
+    struct vndf_batch_point p;
+    p.u = v * v * VNDF_FMA(VNDF_R(-2.0), v, VNDF_R(3.0));
+    p.weight = VNDF_R(6.0) * v * (VNDF_R(1.0) - v);
+    return p;
+}
+
+__kernel void vndf_batch_albedo(__global const VNDF_REAL* restrict in_wo_x,
+                                __global const VNDF_REAL* restrict in_wo_y,
+                                __global const VNDF_REAL* restrict in_wo_z,
+                                __global const VNDF_REAL* restrict in_alpha_x,
+                                __global const VNDF_REAL* restrict in_alpha_y,
+                                __global VNDF_REAL* restrict out_loss) {
+    const size_t i = get_global_id(0);
+    const struct vndf_impl_conductor c = vndf_impl_conductor_of(
+        VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]), VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]));
+    const VNDF_REAL step = VNDF_R(1.0) / VNDF_ALBEDO_POINTS;
+    VNDF_REAL loss = VNDF_R(0.0);
+    for (int j = 0; j < VNDF_ALBEDO_POINTS; ++j) {
+        const struct vndf_batch_point x = vndf_batch_point_of(((VNDF_REAL)j + VNDF_R(0.5)) * step);
+        VNDF_REAL row = VNDF_R(0.0);  // a sum of its own, which rounds less
+        for (int k = 0; k < VNDF_ALBEDO_POINTS; ++k) {
+            const struct vndf_batch_point y = vndf_batch_point_of(((VNDF_REAL)k + VNDF_R(0.5)) * step);
+            const struct vndf_impl_sample s = vndf_impl_conductor_sample(c, VNDF_MAKE2(x.u, y.u));
+            row += y.weight * (VNDF_R(1.0) - vndf_impl_conductor_weight(c, VNDF_MAKE3(s.x, s.y, s.z)));
+        }
+        loss += x.weight * (row * step);
+    }
+    out_loss[i] = loss * step;
+}
