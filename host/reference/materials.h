@@ -26,6 +26,31 @@ R fresnel_conductor(const R& cos_theta, const R& eta, const R& k) {
     return (std::norm(s) + std::norm(p)) / 2;
 }
 
+// Snell's law in angles, sin(theta) = eta sin(theta_t), and Fresnel's formulas in their sum and difference: Rs = (sin(theta -
+// theta_t) / sin(theta + theta_t))^2, Rp the same with tangents. The difference by its tangent's half: it vanishes with eta - 1.
+template <class R>
+R transmitted_cosine(const R& cos_theta, const R& eta) {
+    using std::sqrt;
+    const R c = within<R>(cos_theta, 0, 1), n = within<R>(eta, R(1e-3), R(1e3));
+    const R square = (n - 1) * (n + 1) + c * c;
+    return square > 0 ? R(sqrt(square) / n) : R(0);
+}
+template <class R>
+R fresnel_dielectric(const R& cos_theta, const R& eta) {
+    using std::sqrt;
+    const R c = within<R>(cos_theta, 0, 1), n = within<R>(eta, R(1e-3), R(1e3));
+    if (n == 1) return R(0);
+    const R ct = transmitted_cosine(c, n);
+    if (n < 1 && !(ct > 0)) return R(1);
+    const R s = sqrt((1 - c) * (1 + c)), st = s / n;
+    if (!(s > 0)) return squared((n - 1) / (n + 1));
+    // sin and cos of theta - theta_t and of theta + theta_t.
+    const R together = s * ct + c * st, apart = s * (n - 1) * (n + 1) * s / (n * n) / together;
+    const R cos_apart = c * ct + s * st, cos_together = c * ct - s * st;
+    const R rs = apart / together, rp = rs * cos_together / cos_apart;
+    return (squared(rs) + squared(rp)) / 2;
+}
+
 template <class R>
 R fresnel_schlick(const R& cos_theta, const R& f0, const R& f90) {
     const R c = within<R>(cos_theta, 0, 1), low = within<R>(f0, 0, 1), high = within<R>(f90, 0, 1);
