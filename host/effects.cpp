@@ -78,9 +78,10 @@ Effects parse_effects(std::string_view list) {
                                      chosen.choices.at("sampling")));
     for (const EffectChoice& choice : effect_choices()) chosen.choices.emplace(choice.name, choice.values[0]);
     if (beckmann) chosen.choices["sampling"] = "plain";
-    if (!chosen.on.at("conductor") && !chosen.on.at("lambert"))
+    if (!chosen.on.at("conductor") && !chosen.on.at("dielectric") && !chosen.on.at("lambert"))
         throw InputError(fmt::format(
-            "--effects '{}': nothing is left of a material; it needs conductor, lambert or both", list));
+            "--effects '{}': nothing is left of a material; it needs conductor, dielectric or lambert",
+            list));
     return chosen;
 }
 
