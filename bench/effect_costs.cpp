@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 // An odd number of groups: arrays that begin at one place of a page fall into one set of the cache.
 constexpr std::size_t groups = 13, items = groups * runtime::group_size, launched = 1 << 18;
-constexpr std::size_t inputs = 24, outputs = 8;
+constexpr std::size_t inputs = 29, outputs = 8;
 
 EffectCost cost_of(const std::string& program, const std::string& list) {
     return {program, parse_effects(list).macros()};
@@ -37,6 +37,8 @@ std::vector<EffectCost> programs() {
     all.push_back(cost_of("conductor alone", "conductor"));
     for (const std::string& name : names)
         if (name != "conductor") all.push_back(cost_of("conductor and " + name, "conductor," + name));
+    all.push_back(cost_of("glass: dielectric and back_facing", "dielectric,back_facing"));
+    all.push_back(cost_of("the same, sampling plain", "dielectric,back_facing,sampling=plain"));
     return all;
 }
 
@@ -54,7 +56,8 @@ void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
         columns[0][i] = static_cast<float>(r * std::cos(phi)),
         columns[1][i] = static_cast<float>(r * std::sin(phi));
         columns[6][i] = static_cast<float>(std::exp(-7 * draw.uniform())), columns[7][i] = columns[6][i];
-        columns[21][i] = columns[22][i] = .1f, columns[23][i] = .99f;
+        columns[21][i] += 1;  // the index
+        columns[26][i] = columns[27][i] = .1f, columns[28][i] = .99f;
     }
     for (std::size_t c = 0; c < inputs; ++c)
         program.queue().enqueueWriteBuffer(buffers[c], CL_TRUE, 0, items * sizeof(float), columns[c].data());

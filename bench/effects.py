@@ -38,6 +38,9 @@ def variants():
     yield "conductor alone", small
     for effect in small:
         yield f"conductor and {effect.lower()}", {**small, effect: 1}
+    glass = {**small, "CONDUCTOR": 0, "DIELECTRIC": 1, "BACK_FACING": 1}
+    yield "glass: dielectric and back_facing", glass
+    yield "the same, sampling plain", {**glass, "SAMPLING": "plain"}
     for name, values in CHOICES:
         for value in values[1:]:
             yield f"conductor alone, {name.lower()} {value}", {**small, name: value}

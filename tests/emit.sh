@@ -134,8 +134,9 @@ for function in $all; do
 done
 # Materials with some of their effects.
 one vndf_bsdf_sample --effects conductor,tint,fresnel=f82
+one vndf_bsdf_sample --effects dielectric,back_facing
 if [ $step = 1 ]; then
-    for effects in all lambert conductor conductor,lambert,sampling=conic,fresnel=conductor \
+    for effects in all lambert conductor dielectric,lambert,sampling=plain conductor,lambert,sampling=conic,fresnel=conductor \
         all,ndf=beckmann,masking=separable,fresnel=none; do
         for function in vndf_bsdf_sample vndf_bsdf_eval vndf_bsdf_pdf vndf_bsdf_eval_pdf; do
             one $function --effects $effects

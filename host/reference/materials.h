@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "reference/terms.h"
 
@@ -25,6 +26,31 @@ R fresnel_conductor(const R& cos_theta, const R& eta, const R& k) {
     const C t = std::sqrt(C(1) - C((1 - c) * (1 + c)) / (n * n));
     const C s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
     return (std::norm(s) + std::norm(p)) / 2;
+}
+
+// Snell's law in angles, sin(theta) = eta sin(theta_t), and Fresnel's formulas in their sum and difference: Rs = (sin(theta -
+// theta_t) / sin(theta + theta_t))^2, Rp the same with tangents. The difference by its tangent's half: it vanishes with eta - 1.
+template <class R>
+R transmitted_cosine(const R& cos_theta, const R& eta) {
+    using std::sqrt;
+    const R c = within<R>(cos_theta, 0, 1), n = within<R>(eta, R(1e-3), R(1e3));
+    const R square = (n - 1) * (n + 1) + c * c;
+    return square > 0 ? R(sqrt(square) / n) : R(0);
+}
+template <class R>
+R fresnel_dielectric(const R& cos_theta, const R& eta) {
+    using std::sqrt;
+    const R c = within<R>(cos_theta, 0, 1), n = within<R>(eta, R(1e-3), R(1e3));
+    if (n == 1) return R(0);
+    const R ct = transmitted_cosine(c, n);
+    if (!(c > 0) || (n < 1 && !(ct > 0))) return R(1);
+    const R s = sqrt((1 - c) * (1 + c)), st = s / n;
+    if (!(s > 0)) return squared((n - 1) / (n + 1));
+    // sin and cos of theta - theta_t and of theta + theta_t.
+    const R together = s * ct + c * st, apart = s * (n - 1) * (n + 1) * s / (n * n) / together;
+    const R cos_apart = c * ct + s * st, cos_together = c * ct - s * st;
+    const R rs = apart / together, rp = rs * cos_together / cos_apart;
+    return (squared(rs) + squared(rp)) / 2;
 }
 
 template <class R>
@@ -64,6 +90,7 @@ struct MaterialModel {
     enum class Fresnel { none, conductor, schlick, f82 } fresnel = Fresnel::schlick;
     enum class Masking { correlated, separable } masking = Masking::correlated;
     enum class Energy { none, turquin, kulla_conty } energy = Energy::none;
+    enum class Transport { radiance, importance } transport = Transport::radiance;
 };
 
 template <class R>
@@ -74,7 +101,8 @@ struct MaterialParameters {
     R alpha_x, alpha_y;
     Rgb<R> first, second;  // eta and k; f0 and f90, the first channel for all; f0 and f82
     Rgb<R> tint, albedo;
-    R metal;
+    R metal, ior, transmission;
+    Rgb<R> transmittance;
     Vec3<R> ng;
 };
 
@@ -119,13 +147,56 @@ template <class R>
 struct MaterialValue {
     Rgb<R> f{};
     R pdf = 0, exponent = 0;
-    Rgb<R>
-        slope{};  // what a relative change of 1 in the cosine of the reflectance, and in a height, makes of f
+    // What a relative change of 1 in the arguments of the reflectance, in the cosines with a refracting facet, in an index that
+    // was turned over and in a height makes of f and of the density.
+    Rgb<R> slope{};
+    R pdf_slope = 0;
     bool settled = true;  // no rounding decides between the sides of a horizon or of a cap
 };
 
-// A material seen from wo: a conductor by F D G2 / (4 cos(theta_o)), Lambert's albedo / pi, and the rule about sides, each as
-// its definition says it. Surfaces have two sides.
+// What facets between two media do, for light that is known on the side with index `here` and drawn with another on either.
+template <class R>
+struct Interface {
+    R here, there;
+
+    R reflectance(const R& cosine) const { return fresnel_dielectric<R>(cosine, there / here); }
+
+    // Of the normal that refracts wo to wi: -(here wo + there wi), on wo's side.
+    Vec3<R> normal(const Vec3<R>& wo, const Vec3<R>& wi) const {
+        const Vec3<R> h = normalised<R>(
+            {here * wo.x + there * wi.x, here * wo.y + there * wi.y, here * wo.z + there * wi.z});
+        return there > here ? Vec3<R>{-h.x, -h.y, -h.z} : h;
+    }
+    // Walter et al., Equation 17: |d wm / d wi|.
+    R jacobian(const R& cos_o, const R& cos_i) const {
+        return there * there * cos_i / squared(here * cos_o - there * cos_i);
+    }
+
+    // The cosine of the mean visible normal, that of the mean half vector of the cap, whose height is (1 - cos theta) / 2 in the
+    // mean.
+    static R mean_cosine(const Vec3<R>& wo, const R& ax, const R& ay) {
+        if (!(wo.z > 0)) return mean_cosine({wo.x, wo.y, R(0x1p-80)}, ax, ay);
+        const Vec3<R> s = normalised<R>({ax * wo.x, ay * wo.y, wo.z});
+        const Vec3<R> m = normalised<R>({ax * s.x, ay * s.y, (1 - s.z) / 2 + s.z});
+        return dot(wo, m);
+    }
+    // The probability with which a lobe that is chosen before its normal is a reflection.
+    R expected(const R& mean_cosine, const R& ax, const R& ay) const {
+        const R rough = ax < ay ? ay : ax;
+        return reflectance(mean_cosine) * (R(63) / 64 - rough / (1 + rough) / 2);
+    }
+};
+
+// What a smooth interface makes of a diffuse albedo: light that is reflected inwards meets the surface again.
+template <class R>
+R diffuse_under(const R& albedo, const R& ior) {
+    const R dense = ior < 1 ? 1 / ior : ior, x = dense - 1;
+    const R q = R(2.267723) * x + R(1.27565832) * x * x + R(.22263203) * x * x * x, inwards = q / (1 + q);
+    return albedo / (dense * dense) / (1 - albedo * inwards);
+}
+
+// A material seen from wo: a conductor by F D G2 / (4 cos(theta_o)), a dielectric by Walter's Equations 20 and 21, Lambert's
+// albedo / pi under it, and the rule about sides, each as its definition says it. Surfaces have two sides.
 template <class R>
 class MaterialView {
   public:
@@ -136,7 +207,11 @@ class MaterialView {
         ng_ = behind_ ? Vec3<R>{-p.ng.x, -p.ng.y, p.ng.z} : p.ng;
         const R least = precision == Precision::f32 ? R(1e-8f) : R(1e-8);
         p_.alpha_x = within<R>(p.alpha_x, least, 1000), p_.alpha_y = within<R>(p.alpha_y, least, 1000);
-        p_.metal = within<R>(p.metal, 0, 1);
+        p_.metal = within<R>(p.metal, 0, 1), p_.transmission = within<R>(p.transmission, 0, 1);
+        p_.ior = within<R>(p.ior, R(1e-3), 1000);
+        inside_ = behind_ && transmits();
+        media_ = inside_ ? Interface<R>{p_.ior, 1} : Interface<R>{1, p_.ior};
+        mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         view_ = view(wo_, p_.alpha_x, p_.alpha_y);
         bound_ = reference::bound(view_, wo_);
         if (model.energy == MaterialModel::Energy::kulla_conty)
@@ -148,13 +223,22 @@ class MaterialView {
 
     MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
+        if (model_.energy != MaterialModel::Energy::none) return compensated(wi, losses);
+        MaterialValue<R> value = transmits() && wi.z < 0 ? refracted(wi) : reflected(wi);
+        if (inside_ && !moved_) add_index_slope(direction, value);
+        return value;
+    }
+
+  private:
+    // Without a dielectric: energy models are of conductors.
+    MaterialValue<R> compensated(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
         const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
         value.exponent = model_.ndf == MaterialModel::Ndf::beckmann && h.z > 0
                              ? Beckmann::exponent(h, p_.alpha_x, p_.alpha_y)
                              : R(0);
         const R diffuse = p_.metal * diffuse_share(losses);
-        value.pdf = (p_.metal - diffuse) * conductor_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
+        value.pdf = (p_.metal - diffuse) * facets_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(wi, height_o, height_i);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
@@ -181,15 +265,153 @@ class MaterialView {
         return value;
     }
 
-  private:
+    bool by_normal() const { return model_.sampling == MaterialModel::Sampling::plain; }
+    bool transmits() const { return p_.transmission > 0 && p_.metal < 1; }
+
+    // --- Above the surface ---
+
+    MaterialValue<R> reflected(const Vec3<R>& wi) const {
+        MaterialValue<R> value;
+        const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+        value.exponent = exponent(h);
+        // For directions that are unit vectors but for rounding: with either the same.
+        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, mirror_pdf = facets_pdf(wi),
+                diffuse_pdf = diffuse_share() * lambert_pdf(wi);
+        const auto pdf = [&](const R& c) { return (p_.metal + odds(c).first) * mirror_pdf + diffuse_pdf; };
+        value.pdf = pdf(cosine);
+        // Of what a smooth interface lets in rounding leaves a part of 1.
+        const R unlit =
+            (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
+        value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition();
+        const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
+        // Between opposite directions no facet is told from another.
+        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
+        const bool opposite = dot(sum, sum) < squared(256 * unit());
+        value.settled = settled(wi, height_o, height_i) && !opposite;
+        if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
+        const R passing = part(wi, height_i);
+        const R mirror =
+            model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
+        const R lets_in = 1 - media_.reflectance(wo_.z), lets_out = 1 - media_.reflectance(wi.z);
+        for (int c = 0; c < 3; ++c) {
+            const R scale = passing * p_.metal * p_.tint[c] * mirror, rest = passing * (1 - p_.metal);
+            const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x); };
+            const R under =
+                rest * (1 - p_.transmission) * diffuse_under(p_.albedo[c], p_.ior) * wi.z / pi<R>();
+            const R diffuse = under * lets_in * lets_out;
+            value.f[c] = scale * reflectance(c, cosine) + dielectric(cosine) + diffuse;
+            value.slope[c] = scale * reflectance_slope(c, cosine) + by_cosine(dielectric, cosine) * cosine +
+                             value.f[c] / height_i +
+                             under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z));
+        }
+        return value;
+    }
+
+    // --- Below it, where only a refraction leads ---
+
+    MaterialValue<R> refracted(const Vec3<R>& wi) const {
+        MaterialValue<R> value;
+        const R height_o = dot(wo_, ng_), height_i = -dot(wi, ng_);
+        value.settled = !level(height_o) && !level(height_i);
+        if (p_.ior == 1) return value;  // a delta
+        const Vec3<R> h = media_.normal(wo_, wi);
+        const R cos_o = dot(wo_, h), cos_i = -dot(wi, h);
+        // Next to a facet that is seen from its edge rounding decides.
+        if (std::abs(cos_o) < 256 * unit() || std::abs(cos_i) < 256 * unit()) value.settled = false;
+        if (!(cos_o > 0) || !(cos_i > 0) || !(h.z > 0)) return value;
+        value.exponent = exponent(h);
+        const bool ggx = model_.ndf == MaterialModel::Ndf::ggx;
+        const R seen = ggx ? pdf_wm<Ggx, R>(wo_, h, p_.alpha_x, p_.alpha_y)
+                           : pdf_wm<Beckmann, R>(wo_, h, p_.alpha_x, p_.alpha_y);
+        const R jacobian = media_.jacobian(cos_o, cos_i);
+        const auto pdf = [&](const R& c) { return odds(c).second * seen * jacobian; };
+        value.pdf = pdf(cos_o);
+        // Twice the roundings of a reflection: of its density, and of the cosines with the facet.
+        const R edge = 1 / cos_o + 1 / cos_i;
+        const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
+        value.pdf_slope = by_cosine(pdf, cos_o) + value.pdf * (1 + edge + choice_condition() + unlit);
+        if (!(wo_.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
+        const Vec3<R> raised{wi.x, wi.y, -wi.z};
+        const R facets = ggx ? crossed<Ggx>(h, raised) : crossed<Beckmann>(h, raised);
+        // Equation 21, of light from wi (radiance) or to it, times |cos(theta_i)|.
+        const R index = model_.transport == MaterialModel::Transport::radiance ? media_.here : media_.there;
+        const R bent = cos_o * cos_i / wo_.z * squared(index / (media_.here * cos_o - media_.there * cos_i));
+        const R whole =
+            part({-wi.x, -wi.y, -wi.z}, height_i) * (1 - p_.metal) * p_.transmission * bent * facets;
+        const auto light = [&](const R& c) { return whole * (1 - media_.reflectance(c)); };
+        for (int c = 0; c < 3; ++c) {
+            value.f[c] = p_.transmittance[c] * light(cos_o);
+            value.slope[c] =
+                p_.transmittance[c] * by_cosine(light, cos_o) + value.f[c] * (1 + edge + 1 / height_i);
+        }
+        return value;
+    }
+
+    // --- Which lobe ---
+
+    R diffuse_share() const {
+        return (1 - p_.metal) * (1 - p_.transmission) * (1 - media_.reflectance(wo_.z));
+    }
+    // Of a reflection by the dielectric and of a refraction, for facets of this cosine.
+    std::pair<R, R> odds(const R& cosine) const {
+        const R f =
+            by_normal() ? media_.reflectance(cosine) : media_.expected(mean_cosine_, p_.alpha_x, p_.alpha_y);
+        const R through = (1 - f) * p_.transmission, sum = f + through,
+                whole = 1 - p_.metal - diffuse_share();
+        return sum > 0 ? std::pair<R, R>{whole * f / sum, whole * through / sum} : std::pair<R, R>{};
+    }
+
+    // --- Conditions ---
+
+    // Of the probability of a lobe that is chosen before its normal, in the cosine by which it is.
+    R choice_condition() const {
+        if (by_normal()) return R(0);
+        const auto chosen = [&](const R& c) { return media_.expected(c, p_.alpha_x, p_.alpha_y); };
+        const R f = chosen(mean_cosine_);
+        return f > 0 ? R((by_cosine(chosen, mean_cosine_) * mean_cosine_ + f) * (1 / f + 1 / (1 - f))) : R(0);
+    }
+    template <class F>
+    static R by_cosine(const F& value, const R& cosine) {
+        const R step = R(1e-6) * cosine;
+        return std::abs(value(cosine + step) - value(cosine - step)) / (2 * step);
+    }
+    // Behind the surface 1 / ior is rounded.
+    void add_index_slope(const Vec3<R>& direction, MaterialValue<R>& value) const {
+        const R step = R(1e-7);
+        MaterialView low = *this, high = *this;
+        low.media_.here *= 1 - step, high.media_.here *= 1 + step;
+        low.moved_ = high.moved_ = true;
+        const MaterialValue<R> below = low(direction), above = high(direction);
+        for (int c = 0; c < 3; ++c) value.slope[c] += std::abs(above.f[c] - below.f[c]) / (2 * step);
+        value.pdf_slope += std::abs(above.pdf - below.pdf) / (2 * step);
+    }
+
+    // Of what a smooth interface lets through: its own rounding, and what that of the cosine and the index makes of it, which is
+    // alike next to total reflection.
+    R smooth_slope(const R& cosine) const {
+        const auto reflectance = [&](const R& c) { return media_.reflectance(c); };
+        return cosine > 0 ? R(1 + 2 * by_cosine(reflectance, cosine) * cosine) : R(1);
+    }
+
+    R exponent(const Vec3<R>& h) const {
+        return model_.ndf == MaterialModel::Ndf::beckmann && h.z > 0
+                   ? Beckmann::exponent(h, p_.alpha_x, p_.alpha_y)
+                   : R(0);
+    }
+    // Near the geometric horizon light fades.
+    R part(const Vec3<R>& wi, const R& height_i) const {
+        const R fade = ng_.z > 0 ? height_i / (wi.z * ng_.z) : R(1);
+        return fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
+    }
     // A height is a sum of rounded products, and next to the edge of the bounded cap its density is any of two.
     bool settled(const Vec3<R>& wi, const R& height_o, const R& height_i) const {
-        const R unit = precision_ == Precision::f32 ? R(0x1p-24) : R(0x1p-53);
-        if (std::abs(height_o) < 8 * unit || std::abs(height_i) < 8 * unit) return false;
+        if (level(height_o) || level(height_i)) return false;
         if (model_.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
         const Margin<R> margin = eto_margin(wo_, wi, view_, bound_);
-        return std::abs(margin.inside) > 64 * unit * margin.per_unit;
+        return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
     }
+    bool level(const R& height) const { return std::abs(height) < 8 * unit(); }
+    R unit() const { return precision_ == Precision::f32 ? R(0x1p-24) : R(0x1p-53); }
     R reflectance(int c, const R& cosine) const {
         return reflectance(cosine, p_.first[c],
                            p_.second[model_.fresnel == MaterialModel::Fresnel::schlick ? 0 : c]);
@@ -249,7 +471,13 @@ class MaterialView {
                                                                               : R(g1<N>(view_) * g1<N>(i));
         return N::template ndf<R>(h, p_.alpha_x, p_.alpha_y) * masked / (4 * wo_.z);
     }
-    R conductor_pdf(const Vec3<R>& wi) const {
+    // D G1 G1
+    template <class N>
+    R crossed(const Vec3<R>& h, const Vec3<R>& raised) const {
+        return N::template ndf<R>(h, p_.alpha_x, p_.alpha_y) * g1<N>(view_) *
+               g1<N>(view(raised, p_.alpha_x, p_.alpha_y));
+    }
+    R facets_pdf(const Vec3<R>& wi) const {
         if (model_.ndf == MaterialModel::Ndf::beckmann)
             return pdf_wi<Beckmann, R>(wo_, wi, p_.alpha_x, p_.alpha_y);
         const bool front = wo_.z > 0;
@@ -265,12 +493,13 @@ class MaterialView {
     MaterialModel model_;
     MaterialParameters<R> p_;
     Precision precision_;
-    bool behind_;
+    bool behind_, inside_ = false, moved_ = false;
     Vec3<R> wo_, ng_;
+    Interface<R> media_{};
     View<R> view_;
     Bound<R> bound_{};
     Rgb<R> average_{};  // reflectances, by the cosine law
-    R visible_ = 0;
+    R visible_ = 0, mean_cosine_ = 1;
 };
 
 }  // namespace vndf::reference

@@ -446,6 +446,16 @@ R fresnel_conductor_of(Reader<R> in) {
     return fresnel_conductor(c, eta, in.scalar());
 }
 template <class R>
+R fresnel_dielectric_of(Reader<R> in) {
+    const R c = in.scalar();
+    return fresnel_dielectric(c, in.scalar());
+}
+template <class R>
+R transmitted_cosine_of(Reader<R> in) {
+    const R c = in.scalar();
+    return transmitted_cosine(c, in.scalar());
+}
+template <class R>
 R fresnel_schlick_of(Reader<R> in) {
     const R c = in.scalar(), f0 = in.scalar();
     return fresnel_schlick(c, f0, in.scalar());
@@ -514,6 +524,8 @@ constexpr Entry<R> entries[] = {
     {"vndf_beckmann_slope_cdf", evaluate_term<R, of_cosine_x<R, beckmann_slope_cdf<R>>>},
     {"vndf_beckmann_slope_cdf_inverse", evaluate_term<R, beckmann_slope_cdf_inverse_of<R>>},
     {"vndf_fresnel_conductor", evaluate_term<R, fresnel_conductor_of<R>>},
+    {"vndf_fresnel_dielectric", evaluate_term<R, fresnel_dielectric_of<R>>},
+    {"vndf_fresnel_cos_theta_t", evaluate_term<R, transmitted_cosine_of<R>>},
     {"vndf_fresnel_schlick", evaluate_term<R, fresnel_schlick_of<R>>},
     {"vndf_fresnel_f82", evaluate_term<R, fresnel_f82_of<R>>},
     {"vndf_lambert_pdf_wi", evaluate_term<R, lambert_pdf_of<R>>},

@@ -50,25 +50,39 @@ std::string bent_triangles(const Scene& scene) {
     return bent == 0 ? std::string() : fmt::format("{} triangles with normals of their own", bent);
 }
 
+bool dielectric(const Material& m) {
+    return m.metal < 1 && (m.ior != 1 || m.transmission > 0);
+}
+bool transmits(const Material& m) {
+    return m.metal < 1 && m.transmission > 0;
+}
+
 // What calls for each effect. One that is not here is always called for.
 const std::map<std::string, std::function<std::string(const Scene&)>>& callers() {
     static const std::map<std::string, std::function<std::string(const Scene&)>> all{
         {"conductor",
          [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
+        {"dielectric", [](const Scene& s) { return materials_that(s, dielectric); }},
         {"lambert",
-         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal < 1; }); }},
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) { return m.metal < 1 && m.transmission < 1; });
+         }},
         {"anisotropic",
          [](const Scene& s) {
-             return materials_that(s,
-                                   [](const Material& m) { return m.metal > 0 && m.alpha_x != m.alpha_y; });
+             return materials_that(s, [](const Material& m) {
+                 return (m.metal > 0 || dielectric(m)) && m.alpha_x != m.alpha_y;
+             });
          }},
         {"tint",
          [](const Scene& s) {
-             return materials_that(s, [](const Material& m) { return m.tint != Vec{1, 1, 1}; });
+             return materials_that(s, [](const Material& m) {
+                 return m.tint != Vec{1, 1, 1} || m.transmittance != Vec{1, 1, 1};
+             });
          }},
         {"back_facing",
          [](const Scene& s) {
-             return s.open ? std::string("surfaces that may be seen from behind") : std::string();
+             return s.open ? std::string("surfaces that may be seen from behind")
+                           : materials_that(s, transmits);
          }},
         {"shading_normal", bent_triangles},
         {"terminator", bent_triangles}};
@@ -111,10 +125,21 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
         return std::any_of(effects.begin(), effects.end(),
                            [&](const Effect& e) { return e.name == name && e.on; });
     };
-    if (!on("conductor") && !on("lambert"))
+    if (!on("conductor") && !on("dielectric") && !on("lambert"))
         throw InputError(fmt::format(
-            "--effects '{}': nothing is left of the materials without conductor and lambert", asked));
+            "--effects '{}': nothing is left of the materials without conductor, dielectric and lambert",
+            asked));
     return effects;
+}
+
+// The models of energy are a conductor's: with them even "all" has no dielectric.
+static bool compiles(const Effect& effect, const Choices& choices) {
+    if (choices.energy == "none" || effect.name != "dielectric") return true;
+    if (effect.on && !effect.called_by.empty())
+        throw InputError(
+            fmt::format("--energy {}: of conductors alone, and {} is a dielectric; none is allowed",
+                        choices.energy, effect.called_by));
+    return false;
 }
 
 Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
@@ -122,12 +147,16 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
     if (choices.ndf == "beckmann" && !compared && choices.sampler != "plain")
         throw InputError(
             fmt::format("--sampler {}: --ndf beckmann has plain, ndf and cosine alone", choices.sampler));
+    if (compared && std::any_of(scene.materials.begin(), scene.materials.end(), transmits))
+        throw InputError(fmt::format(
+            "--sampler {}: draws no light through a surface, and a material transmits it", choices.sampler));
     std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
                                    scene.fresnel, choices.masking);
     if (choices.energy != "none") text += " -DVNDF_ENERGY=" + choices.energy;
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
-    for (const Effect& effect : effects) text += fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on);
+    for (const Effect& effect : effects)
+        text += fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on && compiles(effect, choices));
     return {"-DVNDF_RANDOM=" + choices.random, text};
 }
 

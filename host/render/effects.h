@@ -21,7 +21,7 @@ struct Choices {
     std::string ndf = "ggx", sampler = "bounded", masking = "correlated", energy = "none", random = "sobol";
 };
 
-// How directions are drawn: the samplers of kernels/vndf/bsdf_conductor.h, and two to compare with (kernels/render/material.h).
+// How directions are drawn: the samplers of kernels/vndf/bsdf_facets.h, and two to compare with (kernels/render/material.h).
 const std::vector<std::string>& samplers();
 
 // Each effect, on or off. asked: "auto", what the scene calls for; "all"; or names with commas between them, "none" for none.

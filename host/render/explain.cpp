@@ -52,10 +52,11 @@ double difference(const Image& a, const Image& b) {
 
 // The materials' lobes: without the last of them nothing is left.
 bool may_turn_off(const std::vector<Effect>& effects, const Effect& effect) {
-    if (effect.name != "conductor" && effect.name != "lambert") return true;
-    return std::any_of(effects.begin(), effects.end(), [&](const Effect& other) {
-        return other.on && other.name != effect.name &&
-               (other.name == "conductor" || other.name == "lambert");
+    const auto lobe = [](const Effect& e) {
+        return e.name == "conductor" || e.name == "dielectric" || e.name == "lambert";
+    };
+    return !lobe(effect) || std::any_of(effects.begin(), effects.end(), [&](const Effect& other) {
+        return other.on && other.name != effect.name && lobe(other);
     });
 }
 

@@ -45,6 +45,13 @@ std::array<Material, 5> materials_of(std::string_view kind) {
                 metal({0.200f, 0.924f, 1.102f}, {3.91f, 2.45f, 2.14f}, 0.2f),
                 metal({2.870f, 2.950f, 2.650f}, {3.05f, 2.93f, 2.77f}, 0.3f),
                 metal({1.345f, 0.965f, 0.617f}, {7.47f, 6.40f, 5.30f}, 0.4f)};
+    if (kind == "glass")
+        return {glass(1.5f, 0.001f), glass(1.5f, 0.1f), glass(1.5f, 0.3f), glass(1.33f, 0.001f),
+                glass(2.42f, 0.001f)};
+    if (kind == "plastic")
+        return {plastic({0.7f, 0.2f, 0.15f}, 0.02f), plastic({0.7f, 0.5f, 0.2f}, 0.1f),
+                plastic({0.7f, 0.7f, 0.7f}, 0.2f), plastic({0.3f, 0.55f, 0.25f}, 0.35f),
+                plastic({0.2f, 0.3f, 0.6f}, 0.5f)};
     if (kind == "diffuse")
         return {lambert({0.7f, 0.2f, 0.15f}), lambert({0.7f, 0.5f, 0.2f}), lambert({0.7f, 0.7f, 0.7f}),
                 lambert({0.3f, 0.55f, 0.25f}), lambert({0.2f, 0.3f, 0.6f})};
@@ -83,6 +90,22 @@ Material lambert(Vec albedo) {
     Material m;
     m.metal = 0;
     m.albedo = albedo;
+    return m;
+}
+
+Material glass(float ior, float alpha) {
+    Material m;
+    m.metal = 0;
+    m.alpha_x = m.alpha_y = alpha;
+    m.ior = ior;
+    m.transmission = 1;
+    return m;
+}
+
+Material plastic(Vec albedo, float alpha) {
+    Material m = lambert(albedo);
+    m.alpha_x = m.alpha_y = alpha;
+    m.ior = 1.5f;
     return m;
 }
 
@@ -133,7 +156,8 @@ Sky constant_sky(float radiance) {
 }
 
 const std::vector<std::string>& orb_kinds() {
-    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals", "diffuse"};
+    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",
+                                                "diffuse",   "glass",      "plastic"};
     return kinds;
 }
 

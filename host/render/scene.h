@@ -13,18 +13,23 @@ namespace vndf::render {
 
 using Vec = std::array<float, 3>;
 
-// As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, Lambert's reflection, or a mix of both.
+// As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, a rough dielectric over another medium or over Lambert's reflection, or
+// a mix.
 struct Material {
     float alpha_x = 1, alpha_y = 1;
     float metal = 1;  // the conductor's share
     Vec first{1, 1, 1},
         second{1, 1, 1};  // of its reflectance: f0 and f90, eta and k, or f0 and the tint at 82 degrees
     Vec tint{1, 1, 1}, albedo{};
+    float ior = 1, transmission = 0;  // of what is not metal
+    Vec transmittance{1, 1, 1};
 
     bool operator==(const Material&) const = default;
 };
 Material conductor(Vec f0, float alpha_x, float alpha_y);
 Material lambert(Vec albedo);
+Material glass(float ior, float alpha);
+Material plastic(Vec albedo, float alpha);
 
 struct Vertex {
     Vec place, normal;

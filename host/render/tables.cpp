@@ -31,6 +31,8 @@ std::vector<float> material_table(const Scene& scene) {
         std::vector<float> row{m.alpha_x, m.alpha_y, m.metal};
         for (const Vec& rgb : {m.first, m.second, m.tint, m.albedo})
             row.insert(row.end(), rgb.begin(), rgb.end());
+        row.insert(row.end(), {m.ior, m.transmission});
+        row.insert(row.end(), m.transmittance.begin(), m.transmittance.end());
         return row;
     });
 }

@@ -12,7 +12,10 @@
     S(alpha_x)                  \
     S(alpha_y)                  \
     VNDF_BSDF_RGB(S, first)     \
-    VNDF_BSDF_RGB(S, second) VNDF_BSDF_RGB(S, tint) VNDF_BSDF_RGB(S, albedo) S(metal) VNDF_BSDF_XYZ(S, ng)
+    VNDF_BSDF_RGB(S, second)    \
+    VNDF_BSDF_RGB(S, tint)      \
+    VNDF_BSDF_RGB(S, albedo)    \
+    S(metal) S(ior) S(transmission) VNDF_BSDF_RGB(S, transmittance) VNDF_BSDF_XYZ(S, ng)
 
 #define VNDF_BSDF_IN(v) __global const VNDF_REAL *restrict in_##v,
 #define VNDF_BSDF_OUT(v) __global VNDF_REAL *restrict out_##v,
@@ -26,8 +29,12 @@
     out_##c##_b[i] = value.b;
 
 // The effects' members, each where it exists.
-#if VNDF_CONDUCTOR
+#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
 #define VNDF_BSDF_LOAD_ALPHA_X b.alpha_x = in_alpha_x[i];
+#else
+#define VNDF_BSDF_LOAD_ALPHA_X
+#endif
+#if VNDF_CONDUCTOR
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
 #define VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_RGB(eta, first) VNDF_BSDF_LOAD_RGB(k, second)
 #elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
@@ -38,10 +45,9 @@
 #define VNDF_BSDF_LOAD_FRESNEL
 #endif
 #else
-#define VNDF_BSDF_LOAD_ALPHA_X
 #define VNDF_BSDF_LOAD_FRESNEL
 #endif
-#if VNDF_CONDUCTOR && VNDF_ANISOTROPIC
+#if (VNDF_CONDUCTOR || VNDF_DIELECTRIC) && VNDF_ANISOTROPIC
 #define VNDF_BSDF_LOAD_ALPHA_Y b.alpha_y = in_alpha_y[i];
 #else
 #define VNDF_BSDF_LOAD_ALPHA_Y
@@ -51,15 +57,29 @@
 #else
 #define VNDF_BSDF_LOAD_TINT
 #endif
+#if VNDF_DIELECTRIC && VNDF_TINT
+#define VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_RGB(transmittance, transmittance)
+#else
+#define VNDF_BSDF_LOAD_TRANSMITTANCE
+#endif
 #if VNDF_LAMBERT
 #define VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_RGB(albedo, albedo)
 #else
 #define VNDF_BSDF_LOAD_ALBEDO
 #endif
-#if VNDF_CONDUCTOR && VNDF_LAMBERT
+#if VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
 #define VNDF_BSDF_LOAD_METAL b.metal = in_metal[i];
 #else
 #define VNDF_BSDF_LOAD_METAL
+#endif
+#if VNDF_DIELECTRIC && VNDF_LAMBERT
+#define VNDF_BSDF_LOAD_IOR \
+    b.ior = in_ior[i];     \
+    b.transmission = in_transmission[i];
+#elif VNDF_DIELECTRIC
+#define VNDF_BSDF_LOAD_IOR b.ior = in_ior[i];
+#else
+#define VNDF_BSDF_LOAD_IOR
 #endif
 #if VNDF_SHADING_NORMAL
 #define VNDF_BSDF_LOAD_NG \
@@ -69,9 +89,10 @@
 #else
 #define VNDF_BSDF_LOAD_NG
 #endif
-#define VNDF_BSDF_LOAD                                                                       \
-    VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT \
-        VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_NG
+#define VNDF_BSDF_LOAD                                                                             \
+    VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT       \
+        VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_IOR \
+            VNDF_BSDF_LOAD_NG
 
 // The item of a work-item; bench goes through few groups of them again and again, which stay in cache.
 #ifdef VNDF_BSDF_GROUPS

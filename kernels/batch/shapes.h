@@ -70,6 +70,10 @@
 #define VNDF_CALL_COS_THETA_ETA_K cos_theta, eta, k
 #define VNDF_ARGUMENTS_COS_THETA_ETA_K "cos_theta, eta, k"
 
+#define VNDF_SCALARS_COS_THETA_ETA(S) S(cos_theta) S(eta)
+#define VNDF_CALL_COS_THETA_ETA cos_theta, eta
+#define VNDF_ARGUMENTS_COS_THETA_ETA "cos_theta, eta"
+
 #define VNDF_SCALARS_COS_THETA_F0_F90(S) S(cos_theta) S(f0) S(f90)
 #define VNDF_CALL_COS_THETA_F0_F90 cos_theta, f0, f90
 #define VNDF_ARGUMENTS_COS_THETA_F0_F90 "cos_theta, f0, f90"

@@ -55,11 +55,13 @@ VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, st
 VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
                                              float ng_x, float ng_y, float ng_z) {
     struct vndf_bsdf b;
-#if VNDF_CONDUCTOR
+#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
     b.alpha_x = materials[VNDF_MATERIAL_ALPHA_X * row.count + row.number];
 #if VNDF_ANISOTROPIC
     b.alpha_y = materials[VNDF_MATERIAL_ALPHA_Y * row.count + row.number];
 #endif
+#endif
+#if VNDF_CONDUCTOR
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
     b.eta = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_FIRST);
     b.k = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_SECOND);
@@ -77,8 +79,17 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #if VNDF_LAMBERT
     b.albedo = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_ALBEDO);
 #endif
-#if VNDF_CONDUCTOR && VNDF_LAMBERT
+#if VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
     b.metal = materials[VNDF_MATERIAL_METAL * row.count + row.number];
+#endif
+#if VNDF_DIELECTRIC
+    b.ior = materials[VNDF_MATERIAL_IOR * row.count + row.number];
+#if VNDF_LAMBERT
+    b.transmission = materials[VNDF_MATERIAL_TRANSMISSION * row.count + row.number];
+#endif
+#if VNDF_TINT
+    b.transmittance = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_TRANSMITTANCE);
+#endif
 #endif
 #if VNDF_SHADING_NORMAL
     b.ng_x = ng_x;
@@ -126,7 +137,7 @@ VNDF_FN float vndf_render_mirrored_share(struct vndf_bsdf b) {
 #if !VNDF_CONDUCTOR || VNDF_CHOSEN(VNDF_DRAW, cosine)
     (void)b;
     return 0.0f;
-#elif VNDF_LAMBERT
+#elif VNDF_LAMBERT || VNDF_DIELECTRIC
     return b.metal;
 #else
     (void)b;

@@ -41,7 +41,8 @@
 #define VNDF_SURFACE_TANGENT 3
 #define VNDF_SURFACE_WO 6
 #define VNDF_SURFACE_GEOMETRIC 9
-#define VNDF_SURFACE_PLANES 12
+#define VNDF_SURFACE_OFFSET 12  // how far rays begin from the surface; negative where it is seen from behind
+#define VNDF_SURFACE_PLANES 13
 
 // The film, by pixel: sums over the samples, the luminance of those with an odd number, and how often a sample was no number.
 #define VNDF_FILM_RED 0
@@ -91,7 +92,10 @@
 #define VNDF_MATERIAL_SECOND 6  // f90, k or the tint at 82 degrees
 #define VNDF_MATERIAL_TINT 9
 #define VNDF_MATERIAL_ALBEDO 12
-#define VNDF_MATERIAL_PLANES 15
+#define VNDF_MATERIAL_IOR 15
+#define VNDF_MATERIAL_TRANSMISSION 16
+#define VNDF_MATERIAL_TRANSMITTANCE 17
+#define VNDF_MATERIAL_PLANES 20
 
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {

@@ -14,14 +14,31 @@ VNDF_FN VNDF_REAL3 vndf_render_argument(VNDF_RENDER_FROM(float) planes, uint k, 
 }
 VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
                                              VNDF_RENDER_FROM(float) materials, uint number,
-                                             VNDF_RENDER_FROM(float) surface, uint stride, uint i) {
+                                             VNDF_RENDER_FROM(float) surface, float turn, uint stride,
+                                             uint i) {
     struct vndf_render_row row;
     row.count = sizes.materials;
     row.number = number == VNDF_MISS ? 0 : number;
     row.one = sizes.one;
-    return vndf_render_bsdf_of(materials, row, surface[VNDF_SURFACE_GEOMETRIC * stride + i],
-                               surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
+    return vndf_render_bsdf_of(materials, row, turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
+                               turn * surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
                                surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i]);
+}
+
+// The frame of a surface is turned to where the path comes from, that of a material is not: -1 where they differ, which only a
+// dielectric has to know, and what z, and the geometric normal across it, are multiplied by.
+VNDF_FN float vndf_render_turn(VNDF_RENDER_FROM(float) surface, uint stride, uint i) {
+#if VNDF_DIELECTRIC
+    return surface[VNDF_SURFACE_OFFSET * stride + i] < 0.0f ? -1.0f : 1.0f;
+#else
+    (void)surface;
+    (void)stride;
+    (void)i;
+    return 1.0f;
+#endif
+}
+VNDF_FN VNDF_REAL3 vndf_render_turned(VNDF_REAL3 w, float turn) {
+    return VNDF_MAKE3(w.x, w.y, turn * w.z);
 }
 
 // The light of the direction chosen becomes what of it arrives at the eye if nothing is in its way.
@@ -30,18 +47,44 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
                                        VNDF_RENDER_IN(float) path, const uint stride,
                                        VNDF_RENDER_OUT(float) lights) {
     const uint i = VNDF_RENDER_ITEM;
-    const struct vndf_bsdf bsdf = vndf_render_bsdf_at(sizes, materials, material[i], surface, stride, i);
-    const struct vndf_render_value value =
-        vndf_render_evaluate(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i),
-                             vndf_render_argument(lights, VNDF_LIGHT_X, stride, i), bsdf);
+    const float turn = vndf_render_turn(surface, stride, i);
+    const struct vndf_bsdf bsdf =
+        vndf_render_bsdf_at(sizes, materials, material[i], surface, turn, stride, i);
+    const VNDF_REAL3 wi = vndf_render_argument(lights, VNDF_LIGHT_X, stride, i);
+    const struct vndf_render_value value = vndf_render_evaluate(
+        vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),
+        vndf_render_turned(wi, turn), bsdf);
     // f / q times the power heuristic 1 / (1 + (p / q)^2) with f = weight p and the light's density q.
     const float light_pdf = lights[VNDF_LIGHT_PDF * stride + i];
     const float ratio = vndf_impl_min(value.pdf / vndf_impl_max(light_pdf, 1e-12f), 1e15f);
-    const float share = material[i] != VNDF_MISS && light_pdf > 0.0f ? ratio * vndf_render_mis(ratio) : 0.0f;
+#if VNDF_DIELECTRIC
+    // Through the surface lights are not sampled, see vndf_render_scatter.
+    const int reached = material[i] != VNDF_MISS && light_pdf > 0.0f && wi.z > 0.0f;
+#else
+    const int reached = material[i] != VNDF_MISS && light_pdf > 0.0f;
+#endif
+    const float share = reached ? ratio * vndf_render_mis(ratio) : 0.0f;
     lights[VNDF_LIGHT_RED * stride + i] *= path[VNDF_PATH_RED * stride + i] * (share * value.weight.r);
     lights[VNDF_LIGHT_GREEN * stride + i] *= path[VNDF_PATH_GREEN * stride + i] * (share * value.weight.g);
     lights[VNDF_LIGHT_BLUE * stride + i] *= path[VNDF_PATH_BLUE * stride + i] * (share * value.weight.b);
 }
+
+#if VNDF_DIELECTRIC
+// From as far above the surface as rays begin to as far below it.
+VNDF_FN void vndf_render_pass(VNDF_RENDER_FROM(float) surface, int crosses, VNDF_RENDER_TO(float) path,
+                              uint stride, uint i) {
+    const struct vndf_render_vector normal = vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
+                                    tangent = vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i),
+                                    face = vndf_render_vector_at(surface, VNDF_SURFACE_GEOMETRIC, stride, i);
+    const struct vndf_render_vector geometric = vndf_render_sum(
+        vndf_render_sum(vndf_render_scaled(face.x, tangent), face.y, vndf_render_cross(normal, tangent)),
+        face.z, normal);
+    const float offset = surface[VNDF_SURFACE_OFFSET * stride + i];
+    const float step = crosses ? -2.0f * vndf_impl_abs(offset) : 0.0f;
+    vndf_render_store(vndf_render_sum(vndf_render_vector_at(path, VNDF_PATH_X, stride, i), step, geometric),
+                      path, VNDF_PATH_X, stride, i);
+}
+#endif
 
 // The path turns into a direction drawn from the material.
 VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
@@ -49,15 +92,27 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
                                        VNDF_RENDER_IN(uint) words, const uint quad, VNDF_RENDER_IN(uint) slot,
                                        const uint first, const uint stride, VNDF_RENDER_OUT(float) path) {
     const uint i = VNDF_RENDER_ITEM;
-    const struct vndf_bsdf bsdf = vndf_render_bsdf_at(sizes, materials, material[i], surface, stride, i);
+    const float turn = vndf_render_turn(surface, stride, i);
+    const struct vndf_bsdf bsdf =
+        vndf_render_bsdf_at(sizes, materials, material[i], surface, turn, stride, i);
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
-    const struct vndf_render_direction wi = vndf_render_draw(
-        vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), bsdf, VNDF_MAKE2(u.a, u.b), u.c);
-    vndf_render_store(vndf_render_vector_of(wi.x, wi.y, wi.z), path, VNDF_PATH_DX, stride, i);
+    const struct vndf_render_direction wi =
+        vndf_render_draw(vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),
+                         bsdf, VNDF_MAKE2(u.a, u.b), u.c);
+    const float z = turn * wi.z;
+    vndf_render_store(vndf_render_vector_of(wi.x, wi.y, z), path, VNDF_PATH_DX, stride, i);
     path[VNDF_PATH_RED * stride + i] *= wi.value.weight.r;
     path[VNDF_PATH_GREEN * stride + i] *= wi.value.weight.g;
     path[VNDF_PATH_BLUE * stride + i] *= wi.value.weight.b;
+#if VNDF_DIELECTRIC
+    // Through the surface the path goes on from its other side. A light in its way counts in full: none was sampled there.
+    const int crosses = z < 0.0f;
+    vndf_render_pass(surface, crosses, path, stride, i);
+    path[VNDF_PATH_PDF * stride + i] =
+        crosses ? 1e30f : vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
+#else
     path[VNDF_PATH_PDF * stride + i] = vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
+#endif
 }
 
 #endif

@@ -72,12 +72,16 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
     // triangle's corners.
     const struct vndf_render_vector place = vndf_render_mix(a, b, c, b1, b2);
     const float size2 = vndf_render_dot(place, place) + vndf_render_dot(ab, ab) + vndf_render_dot(ac, ac);
-    const struct vndf_render_vector origin = vndf_render_sum(place, 1e-6f * VNDF_SQRT(size2), geometric);
+    const float offset = 1e-6f * VNDF_SQRT(size2);
+    const struct vndf_render_vector origin = vndf_render_sum(place, offset, geometric);
     vndf_render_store(origin, path, VNDF_PATH_X, stride, i);
     vndf_render_store(normal, surface, VNDF_SURFACE_NORMAL, stride, i);
     vndf_render_store(tangent, surface, VNDF_SURFACE_TANGENT, stride, i);
     vndf_render_store(wo_local, surface, VNDF_SURFACE_WO, stride, i);
     vndf_render_store(geometric_local, surface, VNDF_SURFACE_GEOMETRIC, stride, i);
+#if VNDF_DIELECTRIC
+    surface[VNDF_SURFACE_OFFSET * stride + i] = side * offset;
+#endif
     material[i] = met ? triangles[VNDF_TRIANGLE_MATERIAL * sizes.triangles + number] : VNDF_MISS;
 }
 

@@ -3,22 +3,24 @@
 //
 // A choice is one of several models and changes results:
 //   VNDF_NDF       ggx (default), beckmann
-//   VNDF_SAMPLING  how the conductor's reflections are drawn: plain, visible normals mirrored; bounded (default), from the
+//   VNDF_SAMPLING  how specular reflections are drawn: plain, visible normals mirrored; bounded (default), from the
 //                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h. Beckmann has plain alone.
 //   VNDF_FRESNEL   of the conductor: none, it reflects everything; conductor, eta and k; schlick (default), f0 and f90; f82,
 //                  f0 and the tint at 82 degrees
-//   VNDF_MASKING   of the conductor: correlated (default), separable
+//   VNDF_MASKING   of reflections: correlated (default), separable. Of refractions always separable
+//   VNDF_TRANSPORT of refractions: radiance (default), 1 / eta^2 times importance
 //   VNDF_ENERGY    what scatters between facets, of the conductor (energy.h): none (default), it is lost; turquin, single
-//                  scattering raised by it; kulla_conty, a diffuse lobe of its own
+//                  scattering raised by it; kulla_conty, a diffuse lobe of its own. The last two have no VNDF_DIELECTRIC
 //
 // An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
 // not call for it have the same bits:
 //
 // For every renderer, by what its scene holds (bench/effects.py counts what each costs):
-//   VNDF_CONDUCTOR       the rough conductor; 0: every material is Lambert's
-//   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1
+//   VNDF_CONDUCTOR       the rough conductor; 0: every material has metal = 0
+//   VNDF_DIELECTRIC      the rough dielectric; 0: every material with metal < 1 has ior = 1 and transmission = 0
+//   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
 //   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument; the code hardly changes
-//   VNDF_TINT            a factor on the conductor; 0: every tint is 1
+//   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
 //   VNDF_BACK_FACING     surfaces with two sides; 0: none is seen from behind, or those are black
 // For renderers whose normals are interpolated or mapped:
 //   VNDF_SHADING_NORMAL  a geometric normal beside the shading one; 0: both are the same
@@ -43,6 +45,8 @@
 #define VNDF_ENERGY_IS_none 1
 #define VNDF_ENERGY_IS_turquin 2
 #define VNDF_ENERGY_IS_kulla_conty 3
+#define VNDF_TRANSPORT_IS_radiance 1
+#define VNDF_TRANSPORT_IS_importance 2
 
 #ifndef VNDF_NDF
 #define VNDF_NDF ggx
@@ -65,6 +69,16 @@
 #endif
 #ifndef VNDF_CONDUCTOR
 #define VNDF_CONDUCTOR 1
+#endif
+#ifndef VNDF_TRANSPORT
+#define VNDF_TRANSPORT radiance
+#endif
+#ifndef VNDF_DIELECTRIC
+#if VNDF_CAT(VNDF_ENERGY_IS_, VNDF_ENERGY) > 1
+#define VNDF_DIELECTRIC 0
+#else
+#define VNDF_DIELECTRIC 1
+#endif
 #endif
 #ifndef VNDF_LAMBERT
 #define VNDF_LAMBERT 1
@@ -122,6 +136,18 @@
 #undef VNDF_CONDUCTOR
 #define VNDF_CONDUCTOR 1
 #endif
+#if VNDF_CAT(VNDF_TRANSPORT_IS_, VNDF_TRANSPORT) >= 1
+#else
+#error "clvndf: unknown VNDF_TRANSPORT; radiance and importance are allowed"
+#undef VNDF_TRANSPORT
+#define VNDF_TRANSPORT radiance
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_DIELECTRIC) >= 1
+#else
+#error "clvndf: unknown VNDF_DIELECTRIC; 0 and 1 are allowed"
+#undef VNDF_DIELECTRIC
+#define VNDF_DIELECTRIC 1
+#endif
 #if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_LAMBERT) >= 1
 #else
 #error "clvndf: unknown VNDF_LAMBERT; 0 and 1 are allowed"
@@ -167,8 +193,13 @@
 #undef VNDF_SAMPLING
 #define VNDF_SAMPLING plain
 #endif
-#if !VNDF_CONDUCTOR && !VNDF_LAMBERT
-#error "clvndf: VNDF_CONDUCTOR and VNDF_LAMBERT are both 0: nothing is left of a material"
+#if VNDF_DIELECTRIC && !VNDF_CHOSEN(VNDF_ENERGY, none)
+#error "clvndf: VNDF_ENERGY turquin and kulla_conty have no VNDF_DIELECTRIC"
+#undef VNDF_DIELECTRIC
+#define VNDF_DIELECTRIC 0
+#endif
+#if !VNDF_CONDUCTOR && !VNDF_DIELECTRIC && !VNDF_LAMBERT
+#error "clvndf: VNDF_CONDUCTOR, VNDF_DIELECTRIC and VNDF_LAMBERT are 0: nothing is left of a material"
 #undef VNDF_LAMBERT
 #define VNDF_LAMBERT 1
 #endif

@@ -78,8 +78,8 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_lobe_with_pdf(struct vndf_ggx_lobe
 }
 
 // The density of a cap of reflections above o_z = -k z: D / (2 n), n as above.
-VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(struct vndf_ggx_lobe v, VNDF_REAL3 wi, struct vndf_impl_bound b) {
-    struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(v.wo_x, v.wo_y, v.wo_z), wi, v.alpha_x, v.alpha_y);
+VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_half_pdf(struct vndf_ggx_lobe v, struct vndf_impl_half h,
+                                                 struct vndf_impl_bound b) {
     // The stretched reflection has height 2 (m . v) m.z / r - z / r > -k z / r, where h . wo = |h|^2 / 2.
     VNDF_REAL limit = b.gap_z * VNDF_R(7.450580596923828125e-09) * h.scale;
     VNDF_REAL excess = VNDF_FMA(h.length2, h.z, -limit * h.q);
@@ -91,6 +91,10 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(struct vndf_ggx_lobe v, VNDF_REAL3 w
     VNDF_REAL n = b.height * VNDF_R(7.450580596923828125e-09) / v.axis.weight;
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
     return inside ? pdf : VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_pdf(struct vndf_ggx_lobe v, VNDF_REAL3 wi, struct vndf_impl_bound b) {
+    VNDF_REAL3 wo = VNDF_MAKE3(v.wo_x, v.wo_y, v.wo_z);
+    return vndf_impl_ggx_bounded_half_pdf(v, vndf_impl_half_of(wo, wi, v.alpha_x, v.alpha_y), b);
 }
 
 // The density of the bounded cap.

@@ -71,6 +71,7 @@
 
 #include "bsdf_lambert.h"
 #include "fresnel_conductor.h"
+#include "fresnel_dielectric.h"
 #include "fresnel_f82.h"
 #include "fresnel_schlick.h"
 

@@ -9,7 +9,7 @@
 #ifndef VNDF_WALK_DIELECTRIC_H
 #define VNDF_WALK_DIELECTRIC_H
 
-#include "fresnel_conductor.h"
+#include "fresnel_dielectric.h"
 #include "geometry.h"
 #include "walk_surface.h"
 
@@ -52,7 +52,7 @@ VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_scattered(
     struct vndf_impl_sample m = vndf_impl_walk_normal(back, alpha, VNDF_MAKE2(walk.u.b, walk.u.c));
     VNDF_REAL3 wm = VNDF_MAKE3(m.x, m.y, m.z);
     VNDF_REAL cosine = vndf_impl_dot(back.x, back.y, back.z, m.x, m.y, m.z);
-    int mirrored = walk.u.d <= vndf_fresnel_conductor(cosine, walk.eta, VNDF_R(0.0));
+    int mirrored = walk.u.d <= vndf_fresnel_dielectric(cosine, walk.eta);
     VNDF_REAL3 through = vndf_refract(back, wm, walk.eta), reflected = vndf_reflect(back, wm);
     // What rounding took for total reflection is that.
     mirrored = mirrored ||
@@ -111,7 +111,7 @@ VNDF_FN VNDF_REAL vndf_impl_walk_dielectric_sent(struct vndf_impl_walk_dielectri
     VNDF_REAL3 wm = VNDF_MAKE3(x * rcp, y * rcp, z * rcp);
     VNDF_REAL cosine = vndf_impl_dot(back.x, back.y, back.z, wm.x, wm.y, wm.z),
               passing = vndf_impl_dot(wi.x, wi.y, wi.z, wm.x, wm.y, wm.z);
-    VNDF_REAL reflectance = vndf_fresnel_conductor(cosine, walk.eta, VNDF_R(0.0));
+    VNDF_REAL reflectance = vndf_fresnel_dielectric(cosine, walk.eta);
     VNDF_REAL normal_pdf = vndf_impl_walk_normal_pdf(back, wm, alpha);
     VNDF_REAL mirrored = reflectance * vndf_impl_walk_mirrored_pdf(back, wi, alpha) *
                          vndf_impl_walk_leaving(walk.depth, wi, alpha);

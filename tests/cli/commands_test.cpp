@@ -229,7 +229,7 @@ TEST_CASE("emit refuses what it cannot write, and writes the same for the same r
         {"emit vndf_ggx_conic2026_lobe --selftest", "--selftest: vndf_ggx_conic2026_lobe returns no numbers"},
         {"emit vndf_reflect --effects all", "--effects all: no function of a material"},
         {"emit vndf_bsdf_sample --effects lamp",
-         "--effects: unknown 'lamp'; allowed are all, conductor, lambert"},
+         "--effects: unknown 'lamp'; allowed are all, conductor, dielectric, lambert"},
         {"emit vndf_bsdf_sample --effects fresnel=x", "unknown 'fresnel=x'"},
         {"emit vndf_bsdf_sample --effects tint", "--effects 'tint': nothing is left of a material"},
         {"emit vndf_bsdf_sample --effects all,ndf=beckmann,sampling=conic",

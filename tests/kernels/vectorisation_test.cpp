@@ -206,15 +206,17 @@ std::string not_vectorised_with(const std::string& list) {
 
 TEST_CASE("materials are vectorised across work-items on PoCL") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
-    for (const char* list : {"all", "conductor", "lambert", "all,fresnel=conductor,masking=separable",
-                             "all,sampling=conic,fresnel=f82", "all,ndf=beckmann,fresnel=conductor",
-                             "all,energy=turquin", "all,energy=kulla_conty,fresnel=conductor"})
+    for (const char* list :
+         {"all", "conductor", "lambert", "dielectric", "dielectric,back_facing,sampling=plain",
+          "conductor,dielectric,transport=importance", "dielectric,lambert,ndf=beckmann",
+          "all,fresnel=conductor,masking=separable", "all,sampling=conic,fresnel=f82",
+          "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin", "all,energy=kulla_conty,fresnel=conductor"})
         CHECK(not_vectorised_with(list) == "");
 }
 
 // By hand: every choice, with everything on, each effect off, and the conductor alone.
 TEST_CASE("materials of every choice are vectorised", "[.bsdf-vectorised]") {
-    std::vector<std::string> lists{"all", "conductor"};
+    std::vector<std::string> lists{"all", "conductor", "dielectric"};
     for (const Effect& off : effects()) {
         std::string list;
         for (const Effect& on : effects())

@@ -60,30 +60,36 @@ def variants():
         others = sum(value != default for value, default in zip(values, defaults)) - (chosen["NDF"] == "beckmann")
         if others > 1 and "--full" not in sys.argv:
             continue
+        lobes = ["CONDUCTOR", "DIELECTRIC", "LAMBERT"]
+        if chosen["ENERGY"] != "none":  # of conductors alone
+            chosen["DIELECTRIC"] = 0
+            lobes.remove("DIELECTRIC")
         yield chosen
         for effect in effects():
             yield {**chosen, effect: 0}
-        for lobe in ("CONDUCTOR", "LAMBERT"):
+        for lobe in lobes:
             yield {**chosen, **{effect: 0 for effect in effects() if effect != lobe}}
 
 
 def faults(switches, code):
     """What stands in the program and should not, or should and does not."""
     conductor = switches.get("CONDUCTOR", 1)
+    facets = conductor or switches.get("DIELECTRIC", 1)
     for effect, marks in effects().items():
         on = switches.get(effect, 1)
-        needs = {"ANISOTROPIC": conductor, "TINT": conductor, "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
+        needs = {"ANISOTROPIC": facets, "TINT": conductor, "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
         for word in marks:
-            if word == "metal" and not conductor:
-                continue  # of a mix alone
             if word == "lambert" and conductor and switches["ENERGY"] == "kulla_conty":
                 continue  # the cosine law draws for both
+            if word == "b.transmittance":
+                needs["TINT"] = switches.get("DIELECTRIC", 1)
             if holds(code, word) != bool(on and needs.get(effect, 1)):
                 yield f"{effect}={on}: {word} {'stands' if holds(code, word) else 'is missing'}"
     for choice, values in VALUES.items():
         for value, words in values.items():
             for word in words:
-                if holds(code, word) != bool(conductor and switches[choice] == value):
+                needed = conductor if choice == "FRESNEL" else facets
+                if holds(code, word) != bool(needed and switches[choice] == value):
                     yield f"{choice}={switches[choice]}: {word} {'stands' if holds(code, word) else 'is missing'}"
 
 
@@ -99,15 +105,19 @@ def planted(folder):
     """Every #if of an effect made #if 1, one at a time: each must be found."""
     missed = []
     for effect in effects():
-        text = (ROOT / "kernels/vndf/bsdf.h").read_text()
-        changed, count = re.subn(rf"^#if VNDF_{effect}$", "#if 1", text, count=0, flags=re.M)
-        assert count, f"no #if VNDF_{effect} in bsdf.h"
-        (folder / "bsdf.h").write_text(changed)
         switches = {name: values[0] for name, values in choices().items()}
         switches[effect] = 0
+        texts = {path: path.read_text() for path in folder.glob("bsdf*.h")}
+        count = 0
+        for path, text in texts.items():
+            changed, found = re.subn(rf"^#if VNDF_{effect}$", "#if 1", text, count=0, flags=re.M)
+            path.write_text(changed)
+            count += found
+        assert count, f"no #if VNDF_{effect} in bsdf*.h"
         if not list(faults(switches, program(folder, switches))):
             missed.append(effect)
-        (folder / "bsdf.h").write_text(text)
+        for path, text in texts.items():
+            path.write_text(text)
     return missed
 
 

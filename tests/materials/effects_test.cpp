@@ -67,7 +67,13 @@ class Inputs {
         for (int c = 0; c < 3; ++c) material.push_back(chance(.5) ? part() : any(0, 8));
         for (int c = 0; c < 3; ++c) material.push_back(has(off_, "TINT") ? 1 : part());
         for (int c = 0; c < 3; ++c) material.push_back(part());
-        material.push_back(has(off_, "LAMBERT") ? 1 : has(off_, "CONDUCTOR") ? 0 : part());
+        const double metal = has(off_, "CONDUCTOR")                            ? 0
+                             : has(off_, "LAMBERT") && has(off_, "DIELECTRIC") ? 1
+                                                                               : part();
+        material.push_back(metal);
+        material.push_back(has(off_, "DIELECTRIC") ? 1 : chance(.1) ? 1 : std::exp(any(-.7, 1.1)));
+        material.push_back(has(off_, "DIELECTRIC") ? 0 : has(off_, "LAMBERT") ? 1 : part());
+        for (int c = 0; c < 3; ++c) material.push_back(has(off_, "TINT") ? 1 : part());
         for (const float x : ng) material.push_back(x);
         const double u1 = part(), u2 = part(), u_lobe = part();
         put(evaluated_, {wo[0], wo[1], wo[2], wi[0], wi[1], wi[2]}, material);
@@ -103,9 +109,9 @@ std::string switches(const std::string& choices, const Off& off) {
     return text;
 }
 
-// Without both lobes nothing is left.
+// Without any lobe nothing is left.
 bool is_program(const Off& off) {
-    return !(has(off, "CONDUCTOR") && has(off, "LAMBERT"));
+    return !(has(off, "CONDUCTOR") && has(off, "DIELECTRIC") && has(off, "LAMBERT"));
 }
 
 void compare(const BsdfProgram& all, const std::string& choices, const Off& off, std::size_t items) {
@@ -128,7 +134,8 @@ std::vector<std::string> all_choices() {
     return all;
 }
 
-const Off front_conductor{"LAMBERT", "ANISOTROPIC", "TINT", "BACK_FACING", "SHADING_NORMAL", "TERMINATOR"};
+const Off front_conductor{"DIELECTRIC",  "LAMBERT",        "ANISOTROPIC", "TINT",
+                          "BACK_FACING", "SHADING_NORMAL", "TERMINATOR"};
 
 }  // namespace
 
@@ -154,13 +161,15 @@ TEST_CASE("a comparison of bits notices an effect that is called for, and a form
         CHECK(different(values, program.eval_pdf(inputs.evaluated())) > 0);
         CHECK(different(samples, program.sample(inputs.sampled())) > 0);
     }
-    const Off off{"LAMBERT"};
+    const Off off{"DIELECTRIC", "LAMBERT"};
     const Inputs metals(off, 1 << 12, 1);
-    const BsdfProgram changed("",
-                              {{"kernels/vndf/bsdf.h", "VNDF_FMA(share, diffuse.r, rest * weight.r)",
-                                "VNDF_FMA(share, diffuse.r - weight.r, weight.r) * VNDF_R(0.99999994)", 1}},
-                              1);
-    CHECK(different(BsdfProgram("LAMBERT=0").sample(metals.sampled()), changed.sample(metals.sampled())) > 0);
+    const BsdfProgram changed(
+        "",
+        {{"kernels/vndf/bsdf.h", "VNDF_FMA(share, d.weight.r, rest * s.weight.r)",
+          "VNDF_FMA(share, d.weight.r - s.weight.r, s.weight.r) * VNDF_R(0.99999994)", 1}},
+        1);
+    CHECK(different(BsdfProgram("DIELECTRIC=0 LAMBERT=0").sample(metals.sampled()),
+                    changed.sample(metals.sampled())) > 0);
 }
 
 // By hand: 96 choices, each effect alone, all pairs and all together.

@@ -93,6 +93,40 @@ TEST_CASE("a white furnace reflects the analytic albedo within 1e-3") {
     CHECK(mean(matt.image()) == Catch::Approx(0.5).epsilon(0).margin(1e-3));
 }
 
+// Of a smooth dielectric, by Fresnel's amplitudes.
+double fresnel(double cosine, double eta) {
+    const double behind = std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
+    const double s = (cosine - eta * behind) / (cosine + eta * behind),
+                 p = (eta * cosine - behind) / (eta * cosine + behind);
+    return (s * s + p * p) / 2;
+}
+
+TEST_CASE("smooth glass in a white furnace is Fresnel's, and a ball of it is not to be seen") {
+    const double theta = 1.1, eta = 1.5, f = fresnel(std::cos(theta), eta);
+    for (const std::string sampler : {"plain", "bounded", "conic"}) {
+        CAPTURE(sampler);
+        Rendered r = rendered(floor_of(render::glass(1.5f, 1e-3f), theta), 16, 16, 64 * effort());
+        r.choices.sampler = sampler;
+        // Light from the denser medium is spread over more directions.
+        CHECK(mean(r.image()) == Catch::Approx(f + (1 - f) / (eta * eta)).epsilon(0).margin(2e-3));
+
+        render::Scene scene;
+        scene.name = "ball";
+        scene.sky = render::constant_sky(1);
+        scene.add_sphere({0, 0, 0}, 1, 128, render::glass(1.5f, 1e-3f));
+        scene.camera = {{0, 0.3f, 20}, {0, 0, 0}, 0.08f};
+        Rendered ball = rendered(scene, 24, 24, 16 * effort());
+        ball.choices.sampler = sampler;
+        ball.settings.max_bounces = 32;
+        CHECK(mean(ball.image()) == Catch::Approx(1).epsilon(0).margin(5e-3));
+    }
+}
+
+TEST_CASE("a white ball under smooth plastic reflects what there is") {
+    Rendered r = rendered(floor_of(render::plastic({1, 1, 1}, 1e-3f), 0.7), 32, 32, 64 * effort());
+    CHECK(mean(r.image()) == Catch::Approx(1).epsilon(0).margin(3e-3));
+}
+
 TEST_CASE("a furnace never gives more than it gets") {
     Rendered r = rendered(render::orbs("roughness"), 64, 32, 16 * effort());
     r.scene.sky = render::constant_sky(1);

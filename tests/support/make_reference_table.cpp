@@ -791,6 +791,17 @@ std::map<std::string, Evaluation> evaluations() {
         const Real even = c * c * size + s2 * s2, odd = 2 * a * c * s2;
         return Reals{rs * (1 + (even - odd) / (even + odd)) / 2};
     };
+    // Fresnel's amplitudes of a dielectric.
+    all["vndf_fresnel_dielectric"] = [](const Reals& in) {
+        const Real c = in[0], n = in[1], sine2 = (1 - c * c) / (n * n);
+        if (sine2 >= 1) return Reals{1};
+        const Real t = sqrt(1 - sine2), s = (c - n * t) / (c + n * t), p = (n * c - t) / (n * c + t);
+        return Reals{(s * s + p * p) / 2};
+    };
+    all["vndf_fresnel_cos_theta_t"] = [](const Reals& in) {
+        const Real sine2 = (1 - in[0] * in[0]) / (in[1] * in[1]);
+        return Reals{sine2 >= 1 ? Real(0) : Real(sqrt(1 - sine2))};
+    };
     const auto schlick = [](const Real& c, const Real& f0, const Real& f90) {
         return Real(f0 + (f90 - f0) * pow(1 - c, 5));
     };
@@ -1109,6 +1120,9 @@ void materials(Table& table) {
     for (const double c : {1., 0.9, 0.5, 0.15, 1e-3}) {
         for (const double eta : {0.05, 0.6, 1.01, 1.5, 2.7})
             for (const double k : {0.2, 3.4}) table.row("vndf_fresnel_conductor", {c, eta, k});
+        for (const double eta : {0.4, 0.75, 0.999, 1.0001, 1.5, 2.7})
+            for (const char* name : {"vndf_fresnel_dielectric", "vndf_fresnel_cos_theta_t"})
+                table.row(name, {c, eta});
         for (const double f0 : {0.04, 0.9})
             for (const double other : {0.1, 1.}) {
                 table.row("vndf_fresnel_schlick", {c, f0, other});

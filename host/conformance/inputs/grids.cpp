@@ -263,6 +263,7 @@ std::vector<Point> critical_points() {
                     make_point(direction(cos_theta, .7), {.5, .8}, normal, {0, 0, 1}, {.5, .5}, 1.5);
                 const double c =
                     point.wo[0] * point.wm[0] + point.wo[1] * point.wm[1] + point.wo[2] * point.wm[2];
+                point.cos_theta = c;
                 point.eta = std::sqrt((1 - c) * (1 + c)) * (1 + part);
                 points.push_back(point);
             }
@@ -285,7 +286,7 @@ std::vector<Point> level_points() {
 
 std::vector<Point> guard_points(const Function& function) {
     std::vector<Point> points = clamped_points(function);
-    if (uses(function, {"eta"}) && uses(function, {"wm_x"}))
+    if (uses(function, {"eta"}) && uses(function, {"wm_x", "cos_theta"}) && !uses(function, {"k"}))
         for (const Point& point : critical_points()) points.push_back(point);
     if (uses(function, {"x", "slope_x"}))
         for (const Point& point : level_points()) points.push_back(point);

@@ -135,17 +135,17 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
 // A C e^(x^2) next to x, in front with y = a - x put in; for x > 0 less a e^(x^2): weight E / 2 + I, with E and I by math.h's
 // formula, but as a sum of which the last term has r, since all wait for it.
 VNDF_FN VNDF_REAL vndf_impl_slope_mass(struct vndf_impl_incidence_slopes i,
-                                       struct vndf_impl_visible_slope at) {
-    VNDF_REAL size = VNDF_STD(fabs)(at.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
-    int right = at.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
-    VNDF_REAL r = vndf_impl_scaled_erfc_rest(v), v2 = v * v, v3 = v2 * v;
+                                       struct vndf_impl_visible_slope r) {
+    VNDF_REAL size = VNDF_STD(fabs)(r.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
+    int right = r.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
+    VNDF_REAL last = vndf_impl_scaled_erfc_rest(v), v2 = v * v, v3 = v2 * v;
     VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
     // For small x behind the surface I is (1 / sqrt(pi) - x E) / 2.
-    VNDF_REAL weight = VNDF_R(0.5) * (front ? (right ? -i.a : i.a) : (tail ? at.y : at.y - size));
+    VNDF_REAL weight = VNDF_R(0.5) * (front ? (right ? -i.a : i.a) : (tail ? r.y : r.y - size));
     VNDF_REAL erfcx = v * VNDF_FMA(v2, third, VNDF_FMA(v, first, first));
     VNDF_REAL ierfcx = v2 * VNDF_FMA(v, third, VNDF_R(0.03526184897173476793));
     VNDF_REAL factor = VNDF_FMA(weight * v, v3, tail ? v3 * (v - VNDF_R(1.0)) : VNDF_R(0.0));
-    return VNDF_FMA(factor, r, VNDF_FMA(weight, erfcx, tail ? ierfcx : first));
+    return VNDF_FMA(factor, last, VNDF_FMA(weight, erfcx, tail ? ierfcx : first));
 }
 
 // One step towards the slope of mass u, of fifth order in Z = y^2: A C' = -e^(-x^2) / (2 sqrt(pi)) there, without a zero at

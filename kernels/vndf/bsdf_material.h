@@ -1,0 +1,183 @@
+// The parameters of a material (bsdf.h), the sides of its surface, and its reflectance.
+#ifndef VNDF_BSDF_MATERIAL_H
+#define VNDF_BSDF_MATERIAL_H
+
+#include "effects.h"
+#include "fresnel.h"
+#include "impl/range.h"
+
+VNDF_BEGIN
+
+// A material at a point. Every member of a reflectance is in [0, 1].
+struct vndf_bsdf {
+#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
+    // alpha as everywhere in the library, in [1e-8, 1e3]; alpha_x stands for both without VNDF_ANISOTROPIC.
+    VNDF_REAL alpha_x;
+#if VNDF_ANISOTROPIC
+    VNDF_REAL alpha_y;
+#endif
+#endif
+#if VNDF_CONDUCTOR
+    // conductor: eta, k for each channel, over the index outside. schlick: f0 for each channel, f90. f82: f0 and the tint at 82
+    // degrees for each channel.
+    VNDF_IMPL_FRESNEL_MEMBERS
+#if VNDF_TINT
+    struct vndf_rgb tint;  // a factor on the whole conductor
+#endif
+#endif
+#if VNDF_LAMBERT
+    struct vndf_rgb albedo;
+#endif
+#if VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
+    VNDF_REAL metal;  // the share of the conductor, and the probability that it is sampled
+#endif
+#if VNDF_DIELECTRIC
+    // The index of refraction behind the surface over that in front, in [1e-3, 1e3]; 1: no interface.
+    VNDF_REAL ior;
+#if VNDF_LAMBERT
+    VNDF_REAL transmission;  // the share that goes through of the light that gets in; 1 without VNDF_LAMBERT
+#endif
+#if VNDF_TINT
+    struct vndf_rgb transmittance;  // a factor on what goes through
+#endif
+#endif
+#if VNDF_SHADING_NORMAL
+    VNDF_REAL ng_x, ng_y,
+        ng_z;  // the geometric normal, a unit vector in the local frame; (0, 0, 1): no other than the shading one
+#endif
+};
+
+// What vndf_bsdf_sample tells of the lobe that it drew from.
+#define VNDF_BSDF_CONDUCTOR 0
+#define VNDF_BSDF_LAMBERT 1     // by the cosine law: Lambert's, and of VNDF_ENERGY kulla_conty
+#define VNDF_BSDF_REFLECTION 2  // of the dielectric
+#define VNDF_BSDF_TRANSMISSION 3
+
+// --- The side of the surface ---
+
+// What turns z to the side of wo: -1 behind a surface with two sides, 1 otherwise.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
+#if VNDF_BACK_FACING
+#if VNDF_SHADING_NORMAL
+    int backwards = VNDF_FMA(wo.x, b.ng_x, VNDF_FMA(wo.y, b.ng_y, wo.z * b.ng_z)) < VNDF_R(0.0);
+#else
+    int backwards = wo.z < VNDF_R(0.0);
+#endif
+    (void)b;
+    return backwards ? VNDF_R(-1.0) : VNDF_R(1.0);
+#else
+    (void)wo;
+    (void)b;
+    return VNDF_R(1.0);
+#endif
+}
+
+// What is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
+#define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
+#define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
+
+// A conductor with one normal has the weight 0 below its horizon by itself.
+#define VNDF_IMPL_SIDES (VNDF_IMPL_DIFFUSE || VNDF_SHADING_NORMAL || VNDF_DIELECTRIC)
+
+#if VNDF_IMPL_SIDES
+
+// The part of the light that passes between wo and wi, both turned by `side`: 0 where the rule above forbids it. Of light that
+// crosses the surface, wi is turned around before.
+// Source of the part near the geometric horizon: Chiang, Li & Burley, Taming the Shadow Terminator, 2019: G + G^2 - G^3,
+//     G = min(ng . wi / ((ns . wi) (ns . ng)), 1).
+VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b, VNDF_REAL side) {
+    int above = wo.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+#if VNDF_SHADING_NORMAL
+    VNDF_REAL x = side * b.ng_x, y = side * b.ng_y, z = b.ng_z;
+    VNDF_REAL height_o = VNDF_FMA(wo.x, x, VNDF_FMA(wo.y, y, wo.z * z));
+    // Made dependent on the other height, so that LLVM's SLP pass does not pack the two; where it is none, above is 0.
+    above = above && height_o > VNDF_R(0.0);
+    VNDF_REAL height_i = VNDF_FMA(wi.x, x, VNDF_FMA(wi.y, y, wi.z * z));
+    above = above && height_i > VNDF_R(0.0);
+#if VNDF_TERMINATOR
+    VNDF_REAL most = wi.z * z;
+    int fading = height_i < most;
+    VNDF_REAL g = fading ? height_i / (fading ? most : VNDF_R(1.0)) : VNDF_R(1.0);
+    VNDF_REAL part = g * VNDF_FMA(g, VNDF_R(1.0) - g, VNDF_R(1.0));
+    return above ? part : VNDF_R(0.0);
+#endif
+#else
+    (void)b;
+    (void)side;
+#endif
+    return above ? VNDF_R(1.0) : VNDF_R(0.0);
+}
+
+#endif
+
+// --- Microfacets ---
+
+#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
+
+VNDF_FN VNDF_REAL2 vndf_impl_bsdf_alpha(struct vndf_bsdf b) {
+#if VNDF_ANISOTROPIC
+    return VNDF_MAKE2(b.alpha_x, b.alpha_y);
+#else
+    return VNDF_MAKE2(b.alpha_x, b.alpha_x);
+#endif
+}
+
+#endif
+
+// The share of the conductor.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_metal(struct vndf_bsdf b) {
+#if VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
+    return vndf_impl_share(vndf_impl_max(b.metal, VNDF_R(0.0)));
+#else
+    (void)b;
+    return VNDF_CONDUCTOR ? VNDF_R(1.0) : VNDF_R(0.0);
+#endif
+}
+
+#if VNDF_CONDUCTOR
+
+// The cosine of wo and wi with the normal between them: half the length of wo + wi.
+VNDF_FN VNDF_REAL vndf_impl_half_cosine(VNDF_REAL3 wo, VNDF_REAL3 wi) {
+    VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
+    return VNDF_R(0.5) * VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));
+}
+
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
+// A parameter of the next channel, made dependent on the last one's reflectance, so that LLVM's SLP pass does not pack the alike
+// formulas (impl/stretch.h); the other choice is never taken.
+VNDF_FN VNDF_REAL vndf_impl_next_channel(VNDF_REAL parameter, VNDF_REAL last) {
+    return last >= VNDF_R(0.0) ? parameter : VNDF_R(1.0);
+}
+#endif
+
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL cosine) {
+#if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
+    VNDF_REAL red = vndf_fresnel_conductor(cosine, b.eta.r, b.k.r);
+    VNDF_REAL green = vndf_fresnel_conductor(cosine, vndf_impl_next_channel(b.eta.g, red), b.k.g);
+    VNDF_REAL blue = vndf_fresnel_conductor(cosine, vndf_impl_next_channel(b.eta.b, green), b.k.b);
+#elif VNDF_CHOSEN(VNDF_FRESNEL, schlick)
+    VNDF_REAL red = vndf_fresnel_schlick(cosine, b.f0.r, b.f90),
+              green = vndf_fresnel_schlick(cosine, b.f0.g, b.f90),
+              blue = vndf_fresnel_schlick(cosine, b.f0.b, b.f90);
+#elif VNDF_CHOSEN(VNDF_FRESNEL, f82)
+    VNDF_REAL red = vndf_fresnel_f82(cosine, b.f0.r, b.f82.r);
+    VNDF_REAL green = vndf_fresnel_f82(cosine, vndf_impl_next_channel(b.f0.g, red), b.f82.g);
+    VNDF_REAL blue = vndf_fresnel_f82(cosine, vndf_impl_next_channel(b.f0.b, green), b.f82.b);
+#else
+    VNDF_REAL red = VNDF_R(1.0), green = VNDF_R(1.0), blue = VNDF_R(1.0);
+    (void)cosine;
+#endif
+    struct vndf_rgb f = vndf_impl_rgb(red, green, blue);
+#if VNDF_TINT
+    return vndf_impl_rgb_product(f, b.tint);
+#else
+    (void)b;
+    return f;
+#endif
+}
+
+#endif
+
+VNDF_END
+
+#endif
