@@ -119,7 +119,7 @@
      "s.share *= often;",
      "",
      "ENERGY=kulla_conty",
-     {"density", "chi2 of the directions"}},
+     {"density", "mean weight"}},
     {"a mean reflectance of equal parts",
      "kernels/vndf/bsdf_energy.h",
      "VNDF_R(0.259695095216465)",
