@@ -218,7 +218,7 @@ Columns metal_rows(const Point& p, std::size_t count, bool walk) {
             in[c][i] = walk ? static_cast<double>(c == 3 ? i : 1) : draw.uniform();
         in[first][i] = p.alpha_x, in[first + 1][i] = p.alpha_y;
         for (int c = 0; c < 3; ++c) in[first + 2 + c][i] = metal[c][0], in[first + 5 + c][i] = metal[c][1];
-        in[first + 15][i] = in[first + 16][i] = 0;
+        in[in.size() - 3][i] = in[in.size() - 2][i] = 0;  // ng
     }
     return in;
 }
