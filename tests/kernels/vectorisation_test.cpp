@@ -210,7 +210,8 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
          {"all", "conductor", "lambert", "dielectric", "dielectric,back_facing,sampling=plain",
           "conductor,dielectric,transport=importance", "dielectric,lambert,ndf=beckmann",
           "all,fresnel=conductor,masking=separable", "all,sampling=conic,fresnel=f82",
-          "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin", "all,energy=kulla_conty,fresnel=conductor"})
+          "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin",
+          "all,energy=kulla_conty,fresnel=conductor"})
         CHECK(not_vectorised_with(list) == "");
 }
 
