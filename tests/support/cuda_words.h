@@ -19,6 +19,8 @@ struct double3 {
 };
 __device__ float fmaf(float, float, float);
 __device__ double fma(double, double, double);
+__device__ float fabsf(float);
+__device__ double fabs(double);
 __device__ float sqrtf(float);
 __device__ double sqrt(double);
 __device__ void* memcpy(void*, const void*, decltype(sizeof 0));
