@@ -100,6 +100,16 @@ std::vector<Effect> called_effects(const Scene& scene) {
     return effects;
 }
 
+// The models of energy are a conductor's: with them even "all" has no dielectric.
+bool compiles(const Effect& effect, const Choices& choices) {
+    if (choices.energy == "none" || effect.name != "dielectric") return true;
+    if (effect.on && !effect.called_by.empty())
+        throw InputError(
+            fmt::format("--energy {}: of conductors alone, and {} is a dielectric; none is allowed",
+                        choices.energy, effect.called_by));
+    return false;
+}
+
 }  // namespace
 
 const std::vector<std::string>& samplers() {
@@ -130,16 +140,6 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
             "--effects '{}': nothing is left of the materials without conductor, dielectric and lambert",
             asked));
     return effects;
-}
-
-// The models of energy are a conductor's: with them even "all" has no dielectric.
-static bool compiles(const Effect& effect, const Choices& choices) {
-    if (choices.energy == "none" || effect.name != "dielectric") return true;
-    if (effect.on && !effect.called_by.empty())
-        throw InputError(
-            fmt::format("--energy {}: of conductors alone, and {} is a dielectric; none is allowed",
-                        choices.energy, effect.called_by));
-    return false;
 }
 
 Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {

@@ -9,6 +9,13 @@
 
 #define VNDF_WALK_RANDOM vndf_walk_random_of((unsigned)in_walk[i], (unsigned)in_sequence[i])
 
+#define VNDF_WALK_STORE                   \
+    out_wi_x[i] = d.wi_x;                 \
+    out_wi_y[i] = d.wi_y;                 \
+    out_wi_z[i] = d.wi_z;                 \
+    VNDF_BSDF_STORE_RGB(weight, d.weight) \
+    out_facets[i] = (VNDF_REAL)d.facets;
+
 #if VNDF_CONDUCTOR
 
 __kernel void vndf_batch_walk_conductor_sample(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) VNDF_BSDF_IN(walk)
@@ -21,11 +28,7 @@ __kernel void vndf_batch_walk_conductor_sample(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) V
     VNDF_BSDF_LOAD
     const struct vndf_walk_direction d =
         vndf_walk_conductor_sample(VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]), b, VNDF_WALK_RANDOM);
-    out_wi_x[i] = d.wi_x;
-    out_wi_y[i] = d.wi_y;
-    out_wi_z[i] = d.wi_z;
-    VNDF_BSDF_STORE_RGB(weight, d.weight)
-    out_facets[i] = (VNDF_REAL)d.facets;
+    VNDF_WALK_STORE
 }
 
 __kernel void vndf_batch_walk_conductor_eval(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) VNDF_BSDF_XYZ(VNDF_BSDF_IN, wi)
@@ -56,11 +59,7 @@ __kernel void vndf_batch_walk_dielectric_sample(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) 
     const struct vndf_walk_direction d = vndf_walk_dielectric_sample(
         VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]), VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]),
         in_first_r[i], VNDF_WALK_RANDOM);
-    out_wi_x[i] = d.wi_x;
-    out_wi_y[i] = d.wi_y;
-    out_wi_z[i] = d.wi_z;
-    VNDF_BSDF_STORE_RGB(weight, d.weight)
-    out_facets[i] = (VNDF_REAL)d.facets;
+    VNDF_WALK_STORE
 }
 
 __kernel void vndf_batch_walk_dielectric_eval(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) VNDF_BSDF_XYZ(VNDF_BSDF_IN, wi)

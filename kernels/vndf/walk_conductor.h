@@ -17,45 +17,32 @@
 
 VNDF_BEGIN
 
-// A ray within the surface.
+// A ray within the surface, and what it has left of the light.
 struct vndf_impl_walk_conductor {
-    VNDF_REAL x, y, z, depth;
+    struct vndf_impl_walk ray;
     struct vndf_rgb weight;
-    struct vndf_impl_quad u;  // of its next facet
-    struct vndf_walk_random random;
 };
-
-// From its facet, or with wo.z > 0 from above, to the next, at `depth`.
-VNDF_FN struct vndf_impl_walk_conductor vndf_impl_walk_conductor_next(struct vndf_impl_walk_conductor walk,
-                                                                      VNDF_REAL2 alpha) {
-    walk.u = vndf_impl_walk_quad(walk.random);
-    ++walk.random.drawn;
-    walk.depth = vndf_impl_walk_depth(walk.depth, VNDF_MAKE3(walk.x, walk.y, walk.z), alpha, walk.u.a);
-    return walk;
-}
 VNDF_FN struct vndf_impl_walk_conductor vndf_impl_walk_conductor_of(VNDF_REAL3 wo,
                                                                     struct vndf_walk_random random,
                                                                     VNDF_REAL2 alpha) {
     struct vndf_impl_walk_conductor walk;
-    walk.x = -wo.x;
-    walk.y = -wo.y;
-    walk.z = -wo.z;
-    walk.depth = VNDF_R(0.0);
+    walk.ray = vndf_impl_walk_of(wo, random, alpha);
     walk.weight = vndf_impl_rgb(VNDF_R(1.0), VNDF_R(1.0), VNDF_R(1.0));
-    walk.random = random;
-    return vndf_impl_walk_conductor_next(walk, alpha);
+    return walk;
 }
 
-// Mirrored at a facet.
-VNDF_FN struct vndf_impl_walk_conductor vndf_impl_walk_conductor_mirrored(
-    struct vndf_impl_walk_conductor walk, struct vndf_bsdf bsdf, VNDF_REAL2 alpha) {
-    VNDF_REAL3 back = VNDF_MAKE3(-walk.x, -walk.y, -walk.z);
-    struct vndf_impl_sample s = vndf_impl_walk_mirrored(back, alpha, VNDF_MAKE2(walk.u.b, walk.u.c));
+// Mirrored at its facet, and on to the next.
+VNDF_FN struct vndf_impl_walk_conductor vndf_impl_walk_conductor_onward(struct vndf_impl_walk_conductor walk,
+                                                                        struct vndf_bsdf bsdf,
+                                                                        VNDF_REAL2 alpha) {
+    VNDF_REAL3 back = VNDF_MAKE3(-walk.ray.x, -walk.ray.y, -walk.ray.z);
+    struct vndf_impl_sample s = vndf_impl_walk_mirrored(back, alpha, VNDF_MAKE2(walk.ray.u.b, walk.ray.u.c));
     VNDF_REAL cosine = vndf_impl_half_cosine(back, VNDF_MAKE3(s.x, s.y, s.z));
     walk.weight = vndf_impl_rgb_product(walk.weight, vndf_impl_bsdf_reflectance(bsdf, cosine));
-    walk.x = s.x;
-    walk.y = s.y;
-    walk.z = s.z;
+    walk.ray.x = s.x;
+    walk.ray.y = s.y;
+    walk.ray.z = s.z;
+    walk.ray = vndf_impl_walk_next(walk.ray, alpha);
     return walk;
 }
 
@@ -73,17 +60,16 @@ VNDF_FN struct vndf_walk_direction vndf_walk_conductor_sample(VNDF_REAL3 wo, str
     struct vndf_walk_direction d;
     int front = wo.z > VNDF_R(0.0);
     d.facets = 0;
-    while (front && walk.depth >= VNDF_R(0.0) && d.facets < VNDF_WALK_FACETS) {
-        walk = vndf_impl_walk_conductor_mirrored(walk, bsdf, alpha);
-        walk = vndf_impl_walk_conductor_next(walk, alpha);
+    while (front && walk.ray.depth >= VNDF_R(0.0) && d.facets < VNDF_WALK_FACETS) {
+        walk = vndf_impl_walk_conductor_onward(walk, bsdf, alpha);
         ++d.facets;
     }
-    int left = front && walk.depth < VNDF_R(0.0);
-    d.wi_x = left ? walk.x : VNDF_R(0.0);
-    d.wi_y = left ? walk.y : VNDF_R(0.0);
-    d.wi_z = left ? walk.z : VNDF_R(1.0);
+    int left = front && walk.ray.depth < VNDF_R(0.0);
+    d.wi_x = left ? walk.ray.x : VNDF_R(0.0);
+    d.wi_y = left ? walk.ray.y : VNDF_R(0.0);
+    d.wi_z = left ? walk.ray.z : VNDF_R(1.0);
     d.weight = vndf_impl_rgb_scaled(walk.weight, left ? VNDF_R(1.0) : VNDF_R(0.0));
-    d.random = walk.random;
+    d.random = walk.ray.random;
     return d;
 }
 
@@ -98,19 +84,18 @@ VNDF_FN struct vndf_walk_value vndf_walk_conductor_eval(VNDF_REAL3 wo, VNDF_REAL
     struct vndf_walk_value value;
     int above = wo.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
     value.f = vndf_impl_rgb(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(0.0));
-    for (int facets = 0; above && walk.depth >= VNDF_R(0.0) && facets < VNDF_WALK_FACETS; ++facets) {
-        VNDF_REAL3 back = VNDF_MAKE3(-walk.x, -walk.y, -walk.z);
+    for (int facets = 0; above && walk.ray.depth >= VNDF_R(0.0) && facets < VNDF_WALK_FACETS; ++facets) {
+        VNDF_REAL3 back = VNDF_MAKE3(-walk.ray.x, -walk.ray.y, -walk.ray.z);
         VNDF_REAL sent =
-            vndf_impl_walk_mirrored_pdf(back, wi, alpha) * vndf_impl_walk_leaving(walk.depth, wi, alpha);
+            vndf_impl_walk_mirrored_pdf(back, wi, alpha) * vndf_impl_walk_leaving(walk.ray.depth, wi, alpha);
         struct vndf_rgb reflectance = vndf_impl_rgb_product(
             walk.weight, vndf_impl_bsdf_reflectance(bsdf, vndf_impl_half_cosine(back, wi)));
         value.f =
             vndf_impl_rgb(VNDF_FMA(sent, reflectance.r, value.f.r), VNDF_FMA(sent, reflectance.g, value.f.g),
                           VNDF_FMA(sent, reflectance.b, value.f.b));
-        walk = vndf_impl_walk_conductor_mirrored(walk, bsdf, alpha);
-        walk = vndf_impl_walk_conductor_next(walk, alpha);
+        walk = vndf_impl_walk_conductor_onward(walk, bsdf, alpha);
     }
-    value.random = walk.random;
+    value.random = walk.ray.random;
     return value;
 }
 

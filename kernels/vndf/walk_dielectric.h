@@ -17,42 +17,29 @@ VNDF_BEGIN
 
 // A ray within the surface, in the frame of the side that it is on: `side` -1 has turned all directions around.
 struct vndf_impl_walk_dielectric {
-    VNDF_REAL x, y, z, depth, side;
-    VNDF_REAL eta;            // of the other side over this one
-    struct vndf_impl_quad u;  // of its next facet
-    struct vndf_walk_random random;
+    struct vndf_impl_walk ray;
+    VNDF_REAL side;
+    VNDF_REAL eta;  // of the other side over this one
 };
-
-VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_next(struct vndf_impl_walk_dielectric walk,
-                                                                        VNDF_REAL2 alpha) {
-    walk.u = vndf_impl_walk_quad(walk.random);
-    ++walk.random.drawn;
-    walk.depth = vndf_impl_walk_depth(walk.depth, VNDF_MAKE3(walk.x, walk.y, walk.z), alpha, walk.u.a);
-    return walk;
-}
 VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_of(VNDF_REAL3 wo, VNDF_REAL eta,
                                                                       struct vndf_walk_random random,
                                                                       VNDF_REAL2 alpha) {
     struct vndf_impl_walk_dielectric walk;
-    VNDF_REAL side = wo.z < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0);
-    walk.x = -side * wo.x;
-    walk.y = -side * wo.y;
-    walk.z = -side * wo.z;
-    walk.depth = VNDF_R(0.0);
-    walk.side = side;
-    walk.eta = side < VNDF_R(0.0) ? VNDF_R(1.0) / eta : eta;
-    walk.random = random;
-    return vndf_impl_walk_dielectric_next(walk, alpha);
+    walk.side = wo.z < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0);
+    walk.eta = walk.side < VNDF_R(0.0) ? VNDF_R(1.0) / eta : eta;
+    walk.ray =
+        vndf_impl_walk_of(VNDF_MAKE3(walk.side * wo.x, walk.side * wo.y, walk.side * wo.z), random, alpha);
+    return walk;
 }
 
-// Mirrored at a facet, or through it to the other side.
-VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_scattered(
+// Mirrored at its facet, or through it to the other side; and on to the next.
+VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_onward(
     struct vndf_impl_walk_dielectric walk, VNDF_REAL2 alpha) {
-    VNDF_REAL3 back = VNDF_MAKE3(-walk.x, -walk.y, -walk.z);
-    struct vndf_impl_sample m = vndf_impl_walk_normal(back, alpha, VNDF_MAKE2(walk.u.b, walk.u.c));
+    VNDF_REAL3 back = VNDF_MAKE3(-walk.ray.x, -walk.ray.y, -walk.ray.z);
+    struct vndf_impl_sample m = vndf_impl_walk_normal(back, alpha, VNDF_MAKE2(walk.ray.u.b, walk.ray.u.c));
     VNDF_REAL3 wm = VNDF_MAKE3(m.x, m.y, m.z);
     VNDF_REAL cosine = vndf_impl_dot(back.x, back.y, back.z, m.x, m.y, m.z);
-    int mirrored = walk.u.d <= vndf_fresnel_dielectric(cosine, walk.eta);
+    int mirrored = walk.ray.u.d <= vndf_fresnel_dielectric(cosine, walk.eta);
     VNDF_REAL3 through = vndf_refract(back, wm, walk.eta), reflected = vndf_reflect(back, wm);
     // What rounding took for total reflection is that.
     mirrored = mirrored ||
@@ -60,12 +47,13 @@ VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_scattered(
     VNDF_REAL x = mirrored ? reflected.x : -through.x, y = mirrored ? reflected.y : -through.y,
               z = mirrored ? reflected.z : -through.z;
     VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));  // no error adds up
-    walk.x = x * rcp;
-    walk.y = y * rcp;
-    walk.z = z * rcp;
-    walk.depth = mirrored ? walk.depth : vndf_impl_walk_other_depth(walk.depth);
+    walk.ray.x = x * rcp;
+    walk.ray.y = y * rcp;
+    walk.ray.z = z * rcp;
+    walk.ray.depth = mirrored ? walk.ray.depth : vndf_impl_walk_other_depth(walk.ray.depth);
     walk.side = mirrored ? walk.side : -walk.side;
     walk.eta = mirrored ? walk.eta : VNDF_R(1.0) / walk.eta;
+    walk.ray = vndf_impl_walk_next(walk.ray, alpha);
     return walk;
 }
 
@@ -82,24 +70,23 @@ VNDF_FN struct vndf_walk_direction vndf_walk_dielectric_sample(VNDF_REAL3 wo, VN
     struct vndf_impl_walk_dielectric walk = vndf_impl_walk_dielectric_of(wo, eta, random, alpha);
     struct vndf_walk_direction d;
     d.facets = 0;
-    while (walk.depth >= VNDF_R(0.0) && d.facets < VNDF_WALK_FACETS) {
-        walk = vndf_impl_walk_dielectric_scattered(walk, alpha);
-        walk = vndf_impl_walk_dielectric_next(walk, alpha);
+    while (walk.ray.depth >= VNDF_R(0.0) && d.facets < VNDF_WALK_FACETS) {
+        walk = vndf_impl_walk_dielectric_onward(walk, alpha);
         ++d.facets;
     }
-    VNDF_REAL left = walk.depth < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0);
-    d.wi_x = walk.side * walk.x;
-    d.wi_y = walk.side * walk.y;
-    d.wi_z = walk.side * walk.z;
+    VNDF_REAL left = walk.ray.depth < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0);
+    d.wi_x = walk.side * walk.ray.x;
+    d.wi_y = walk.side * walk.ray.y;
+    d.wi_z = walk.side * walk.ray.z;
     d.weight = vndf_impl_rgb(left, left, left);
-    d.random = walk.random;
+    d.random = walk.ray.random;
     return d;
 }
 
 // What a facet at `depth` sends along wi, in its frame, out of the surface: mirrored, or through it.
 VNDF_FN VNDF_REAL vndf_impl_walk_dielectric_sent(struct vndf_impl_walk_dielectric walk, VNDF_REAL3 wi,
                                                  VNDF_REAL2 alpha) {
-    VNDF_REAL3 back = VNDF_MAKE3(-walk.x, -walk.y, -walk.z);
+    VNDF_REAL3 back = VNDF_MAKE3(-walk.ray.x, -walk.ray.y, -walk.ray.z);
     int above = wi.z > VNDF_R(0.0);
     VNDF_REAL other = above ? VNDF_R(1.0) : walk.eta;
     VNDF_REAL x = VNDF_FMA(other, wi.x, back.x), y = VNDF_FMA(other, wi.y, back.y),
@@ -114,9 +101,9 @@ VNDF_FN VNDF_REAL vndf_impl_walk_dielectric_sent(struct vndf_impl_walk_dielectri
     VNDF_REAL reflectance = vndf_fresnel_dielectric(cosine, walk.eta);
     VNDF_REAL normal_pdf = vndf_impl_walk_normal_pdf(back, wm, alpha);
     VNDF_REAL mirrored = reflectance * vndf_impl_walk_mirrored_pdf(back, wi, alpha) *
-                         vndf_impl_walk_leaving(walk.depth, wi, alpha);
+                         vndf_impl_walk_leaving(walk.ray.depth, wi, alpha);
     VNDF_REAL through = (VNDF_R(1.0) - reflectance) * normal_pdf * vndf_jacobian_refract(back, wi, walk.eta) *
-                        vndf_impl_walk_leaving(vndf_impl_walk_other_depth(walk.depth),
+                        vndf_impl_walk_leaving(vndf_impl_walk_other_depth(walk.ray.depth),
                                                VNDF_MAKE3(-wi.x, -wi.y, -wi.z), alpha);
     int refracted = cosine > VNDF_R(0.0) && passing < VNDF_R(0.0);
     return above ? mirrored : refracted ? through : VNDF_R(0.0);
@@ -131,14 +118,13 @@ VNDF_FN struct vndf_walk_value vndf_walk_dielectric_eval(VNDF_REAL3 wo, VNDF_REA
     struct vndf_impl_walk_dielectric walk = vndf_impl_walk_dielectric_of(wo, eta, random, alpha);
     struct vndf_walk_value value;
     VNDF_REAL f = VNDF_R(0.0);
-    for (int facets = 0; walk.depth >= VNDF_R(0.0) && facets < VNDF_WALK_FACETS; ++facets) {
+    for (int facets = 0; walk.ray.depth >= VNDF_R(0.0) && facets < VNDF_WALK_FACETS; ++facets) {
         VNDF_REAL3 seen = VNDF_MAKE3(walk.side * wi.x, walk.side * wi.y, walk.side * wi.z);
         f += vndf_impl_walk_dielectric_sent(walk, seen, alpha);
-        walk = vndf_impl_walk_dielectric_scattered(walk, alpha);
-        walk = vndf_impl_walk_dielectric_next(walk, alpha);
+        walk = vndf_impl_walk_dielectric_onward(walk, alpha);
     }
     value.f = vndf_impl_rgb(f, f, f);
-    value.random = walk.random;
+    value.random = walk.ray.random;
     return value;
 }
 

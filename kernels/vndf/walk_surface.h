@@ -82,7 +82,7 @@ VNDF_FN VNDF_REAL vndf_impl_walk_mirrored_pdf(VNDF_REAL3 w, VNDF_REAL3 mirrored,
 #endif
 }
 
-// --- Depth ---
+// --- Rays ---
 
 // The depth of the next facet on a ray; -1 where there is none, and the ray leaves the surface.
 VNDF_FN VNDF_REAL vndf_impl_walk_depth(VNDF_REAL depth, VNDF_REAL3 ray, VNDF_REAL2 alpha, VNDF_REAL u) {
@@ -90,6 +90,32 @@ VNDF_FN VNDF_REAL vndf_impl_walk_depth(VNDF_REAL depth, VNDF_REAL3 ray, VNDF_REA
     int leaves = lambda > VNDF_R(-0.5) && way >= depth * lambda;  // down it is -1 at most
     VNDF_REAL next = depth - way / (leaves ? VNDF_R(1.0) : lambda);
     return leaves ? VNDF_R(-1.0) : vndf_impl_max(next, VNDF_R(0.0));  // below 0 by rounding
+}
+
+// A ray within the surface.
+struct vndf_impl_walk {
+    VNDF_REAL x, y, z, depth;
+    struct vndf_impl_quad u;  // of its next facet
+    struct vndf_walk_random random;
+};
+
+// From its facet to the next, at `depth`.
+VNDF_FN struct vndf_impl_walk vndf_impl_walk_next(struct vndf_impl_walk walk, VNDF_REAL2 alpha) {
+    walk.u = vndf_impl_walk_quad(walk.random);
+    ++walk.random.drawn;
+    walk.depth = vndf_impl_walk_depth(walk.depth, VNDF_MAKE3(walk.x, walk.y, walk.z), alpha, walk.u.a);
+    return walk;
+}
+// To the first, against wo, which is above the surface.
+VNDF_FN struct vndf_impl_walk vndf_impl_walk_of(VNDF_REAL3 wo, struct vndf_walk_random random,
+                                                VNDF_REAL2 alpha) {
+    struct vndf_impl_walk walk;
+    walk.x = -wo.x;
+    walk.y = -wo.y;
+    walk.z = -wo.z;
+    walk.depth = VNDF_R(0.0);
+    walk.random = random;
+    return vndf_impl_walk_next(walk, alpha);
 }
 
 // The part of the light along w that leaves the surface from there: 0 for w below the horizon.

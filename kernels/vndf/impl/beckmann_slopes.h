@@ -139,11 +139,11 @@ VNDF_FN VNDF_REAL vndf_impl_slope_mass(struct vndf_impl_incidence_slopes i,
     VNDF_REAL size = VNDF_STD(fabs)(r.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
     int right = r.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
     VNDF_REAL last = vndf_impl_scaled_erfc_rest(v), v2 = v * v, v3 = v2 * v;
-    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
+    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_IMPL_ERFCX_THIRD;
     // For small x behind the surface I is (1 / sqrt(pi) - x E) / 2.
     VNDF_REAL weight = VNDF_R(0.5) * (front ? (right ? -i.a : i.a) : (tail ? r.y : r.y - size));
     VNDF_REAL erfcx = v * VNDF_FMA(v2, third, VNDF_FMA(v, first, first));
-    VNDF_REAL ierfcx = v2 * VNDF_FMA(v, third, VNDF_R(0.03526184897173476793));
+    VNDF_REAL ierfcx = v2 * VNDF_FMA(v, third, VNDF_IMPL_IERFCX_SECOND);
     VNDF_REAL factor = VNDF_FMA(weight * v, v3, tail ? v3 * (v - VNDF_R(1.0)) : VNDF_R(0.0));
     return VNDF_FMA(factor, last, VNDF_FMA(weight, erfcx, tail ? ierfcx : first));
 }

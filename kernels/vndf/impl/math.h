@@ -240,6 +240,8 @@ VNDF_FN VNDF_REAL vndf_impl_expx2(VNDF_REAL x) {
 // v = 2 / (2 + x):
 //     erfcx = v ((1 + v) / (2 sqrt(pi)) + v^2 (7 / (16 sqrt(pi)) + v r)),
 //     ierfcx = v^2 (1 / (16 sqrt(pi)) + v (7 / (16 sqrt(pi)) - (1 - v) r)), or (1 / sqrt(pi) - x erfcx) / 2 for small x.
+#define VNDF_IMPL_ERFCX_THIRD VNDF_R(0.24683294280214337554)    // 7 / (16 sqrt(pi))
+#define VNDF_IMPL_IERFCX_SECOND VNDF_R(0.03526184897173476793)  // 1 / (16 sqrt(pi))
 VNDF_FN VNDF_REAL vndf_impl_scaled_erfc_rest(VNDF_REAL v) {
 #if VNDF_DOUBLE
     VNDF_REAL z = v - 0.5;
@@ -257,9 +259,9 @@ struct vndf_impl_scaled_erfc {
 VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_REAL v) {
     struct vndf_impl_scaled_erfc f;
     VNDF_REAL v2 = v * v, r = vndf_impl_scaled_erfc_rest(v);
-    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_R(0.24683294280214337554);
+    VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_IMPL_ERFCX_THIRD;
     f.erfcx = v * VNDF_FMA(v2, VNDF_FMA(v, r, third), VNDF_FMA(v, first, first));
-    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), r, third), VNDF_R(0.03526184897173476793));
+    VNDF_REAL tail = v2 * VNDF_FMA(v, VNDF_FMA(v - VNDF_R(1.0), r, third), VNDF_IMPL_IERFCX_SECOND);
     f.ierfcx = x < VNDF_R(0.4) ? VNDF_FMA(VNDF_R(-0.5) * x, f.erfcx, first) : tail;
     return f;
 }
