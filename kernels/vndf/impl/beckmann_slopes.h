@@ -257,7 +257,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     struct vndf_impl_power rise = vndf_impl_split(length);
     VNDF_REAL part = weight * rise.part / (alpha_x * alpha_y) * rise.part * rise.part;
     m.pdf = vndf_impl_times_power(part, 3 * rise.exponent);
-    return vndf_impl_where(length2 <= VNDF_REAL_MAX, m);
+    return m;
 }
 
 VNDF_END

@@ -116,12 +116,12 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
 VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
 #if VNDF_IMPL_STRICT && !VNDF_DOUBLE
     // As above, without a division: log(1 + f) = f + f^2 p(f).
-    VNDF_INT low = VNDF_AS_INT(0.70710678118654752440f), bits = VNDF_AS_INT(vndf_impl_abs(x)) - low;
+    // Without its sign, so that the difference does not overflow.
+    VNDF_INT low = VNDF_AS_INT(0.70710678118654752440f), bits = (VNDF_AS_INT(x) & 0x7fffffff) - low;
     VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_REAL z = VNDF_AS_REAL((bits & 0x7fffff) + low) - 1.0f;
     VNDF_REAL z2 = z * z, z4 = z2 * z2, p = VNDF_IMPL_LOG1P(VNDF_IMPL_P9, VNDF_R);
-    return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z)) +
-           (x - x);  // the bits of NaN are no number
+    return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z));
 #else
     return vndf_impl_log(x);
 #endif
