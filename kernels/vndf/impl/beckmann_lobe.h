@@ -54,7 +54,8 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     VNDF_REAL up = VNDF_R(1099511627776.0), least = VNDF_R(1e6) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
     VNDF_REAL ax = alpha_x * up, ay = alpha_y * up;
     VNDF_REAL x = ax * wo.x, y = ay * wo.y, square = VNDF_FMA(x, x, y * y);
-    int tilted = square > least;
+    // Beyond, the length of wo has left the range of numbers.
+    int tilted = square > least && square <= VNDF_REAL_MAX;
     VNDF_REAL root = VNDF_SQRT(tilted ? square : least), rcp = VNDF_R(1.0) / root;
     lobe.ex = tilted ? x * rcp : VNDF_R(1.0);
     lobe.ey = tilted ? y * rcp : VNDF_R(0.0);

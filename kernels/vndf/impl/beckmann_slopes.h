@@ -49,7 +49,7 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     i.s = vndf_impl_max(twice / (twice + height), VNDF_R(2.0) / VNDF_IMPL_COT_LIMIT);
     i.exponent = bounded * bounded;
     i.gaussian = vndf_impl_moderate_exp(-i.exponent);
-    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(i.a);
+    struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_at(i.a, i.s);
     i.erfcx = f.erfcx;
     i.ierfcx = f.ierfcx;
     i.hidden = i.gaussian * f.ierfcx;
