@@ -16,10 +16,10 @@ struct vndf_beckmann_lobe {
     VNDF_REAL wo_x, wo_y, wo_z;
     VNDF_REAL alpha_x, alpha_y, rcp_x, rcp_y;  // clamped, and 1 over them
     VNDF_REAL ex, ey;                          // the azimuth of the stretched wo, (1, 0) if it has none
-    VNDF_REAL l, rcp_l;                        // and nearly 1 / l, or 0
-    VNDF_REAL beyond;                          // |a| over what the slopes limit it to, at least 1
-    struct vndf_impl_pair square;              // a^2, in twice the precision
-    int sees;                                  // anything: not so at wo = -z
+    VNDF_REAL l;
+    VNDF_REAL beyond;              // |a| over what the slopes limit it to, at least 1
+    struct vndf_impl_pair square;  // a^2, in twice the precision
+    int sees;                      // anything: not so at wo = -z
     struct vndf_impl_incidence_slopes slopes;
 };
 
@@ -62,7 +62,6 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     VNDF_REAL low = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
     low = VNDF_FMA(VNDF_R(0.5), VNDF_FMA(-root, root, square), low);
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
-    lobe.rcp_l = tilted ? up * rcp : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
     VNDF_REAL height = vndf_impl_abs(wo.z) * up, steep = vndf_impl_min(height * rcp, VNDF_IMPL_STEEP_LIMIT);
     lobe.beyond = vndf_impl_max(steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
@@ -91,13 +90,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_beckmann_l
 
 // --- Terms ---
 
-// h in front of the surface, less what the rounding of a makes of it, h' = -erfc(a) / 2; but not so little that a product of
-// it is subnormal: it is beside a.
+// h in front of the surface, but not so little that a product of it is subnormal: it is beside a.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_hidden(struct vndf_beckmann_lobe lobe) {
-    struct vndf_impl_incidence_slopes i = lobe.slopes;
-    VNDF_REAL rest = VNDF_FMA(-i.a, lobe.l, lobe.wo_z) * lobe.rcp_l,
-              hidden = VNDF_FMA(VNDF_R(-0.5) * i.erfcx * i.gaussian, rest, i.hidden);
-    return vndf_impl_max(hidden, VNDF_EPSILON * VNDF_EPSILON);
+    return vndf_impl_max(lobe.slopes.hidden, VNDF_EPSILON * VNDF_EPSILON);
 }
 
 // The projected area that wo sees from in front of the surface.
@@ -126,7 +121,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_both(struct vndf_beckmann_lobe o, struct vn
     VNDF_REAL up = VNDF_R(1099511627776.0), kz_o = up * o.wo_z, kz_i = up * i.wo_z;
     VNDF_REAL hidden_o = vndf_impl_beckmann_hidden(o);
     // Made dependent on wo's, which is positive, so that LLVM's SLP pass does not pack the two (impl/stretch.h).
-    i.rcp_l = hidden_o > VNDF_R(0.0) ? i.rcp_l : VNDF_R(0.0);
+    i.l = hidden_o > VNDF_R(0.0) ? i.l : VNDF_R(0.0);
     VNDF_REAL unseen = kz_i * (o.l * hidden_o) + kz_o * (i.l * vndf_impl_beckmann_hidden(i));
     return kz_o * i.wo_z + unseen;
 }

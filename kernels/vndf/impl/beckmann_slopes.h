@@ -28,7 +28,7 @@ struct vndf_impl_incidence_slopes {
     int front;
     VNDF_REAL steep;     // |a|
     VNDF_REAL a;         // |a|, at most 2^30 (double: 2^60): beyond, y is as 1 / |a|
-    VNDF_REAL s;         // 2 / (2 + |a|), to some eps
+    VNDF_REAL s;         // 2 / (2 + |a|)
     VNDF_REAL exponent;  // in front a^2 where e^(-a^2) counts beside a, behind 0
     VNDF_REAL gaussian;  // e^-exponent
     VNDF_REAL erfcx;     // E(|a|)
@@ -37,7 +37,8 @@ struct vndf_impl_incidence_slopes {
     VNDF_REAL plateau;   // in front a, behind 0
     VNDF_REAL area;      // A
 };
-// Of the two numbers whose quotient is steep: s does not wait for it.
+// Of the two numbers whose quotient is steep: s, and with it all that is not e^(-a^2), does not wait for it, nor has its
+// rounding error.
 VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL steep, VNDF_REAL height,
                                                                        VNDF_REAL width, int front) {
     struct vndf_impl_incidence_slopes i;
