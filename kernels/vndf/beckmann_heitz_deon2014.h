@@ -52,9 +52,14 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL size = at_edge ? root : (outer ? inner : vndf_impl_min(inner, a));
     VNDF_REAL x = outer || left ? -size : size;
 
+    // How far |x| is from a; where that is little, by the first terms of erf a - erf |x| = 2 share.
+    VNDF_REAL linear = VNDF_SQRT_PI * share / i.gaussian;
+    int close = !outer && linear * (VNDF_R(1.0) + a) < VNDF_R(0.001953125);
+    VNDF_REAL gap = close ? VNDF_FMA(-a * linear, linear, linear) : a - size, wide = a + size;
+
     // The sign of x by its share of the projected area, all times 2 a.
     VNDF_REAL first = VNDF_R(2.0) * a * u2, second = VNDF_R(2.0) * a * (VNDF_R(1.0) - u2);
-    VNDF_REAL keep = a - x, swap = a + x;
+    VNDF_REAL keep = outer || left ? wide : gap, swap = outer || left ? gap : wide;
     int mirror = !outer && first > keep;
     VNDF_REAL reach = mirror ? swap : keep;
     VNDF_REAL rcp = VNDF_R(1.0) / reach;

@@ -9,6 +9,8 @@
 namespace vndf::conformance {
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
+
 bool uses(const Function& function, std::initializer_list<std::string_view> names) {
     return std::any_of(names.begin(), names.end(),
                        [&](std::string_view name) { return column(function, name) >= 0; });
@@ -282,6 +284,21 @@ std::vector<Point> level_points() {
     return points;
 }
 
+// The last slopes of Beckmann's in the plane of incidence, with a u2 next to where the map of 2014 turns them around.
+std::vector<Point> folded_points() {
+    std::vector<Point> points;
+    for (const double cos_theta : {.2, .5, .9})
+        for (const double part : {.4, .6, .8, 1.3})
+            for (const double last : {0x1p-22, 0x1p-24}) {
+                const double alpha = .5, a = cos_theta / (alpha * std::sqrt(1 - cos_theta * cos_theta));
+                const double area = (a * (1 + std::erf(a)) + std::exp(-a * a) / std::sqrt(pi)) / 2;
+                const double gap = std::sqrt(pi) * last * area / a * std::exp(a * a);
+                points.push_back(make_point(direction(cos_theta, .7), {alpha, alpha}, {1, 0}, {0, 0, 1},
+                                            {1 - last, part * gap / (2 * a)}, 1.5));
+            }
+    return points;
+}
+
 }  // namespace
 
 std::vector<Point> guard_points(const Function& function) {
@@ -298,6 +315,8 @@ std::vector<Point> guard_points(const Function& function) {
         for (const Direction& n : axes)
             for (const auto& some : {silhouette_points(n), grazing_points(), horizon_points()})
                 points.insert(points.end(), some.begin(), some.end());
+    if (function.kind == Kind::sampler && function.ndf == Ndf::beckmann)
+        for (const Point& point : folded_points()) points.push_back(point);
     if (function.kind == Kind::sampler && function.result == "WI")
         for (const Point& point : rim_points()) points.push_back(point);
     if (uses(function, {"eta"})) {
@@ -309,8 +328,6 @@ std::vector<Point> guard_points(const Function& function) {
 }
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // Random numbers whose sequence is the same with every standard library.
 class Random {
