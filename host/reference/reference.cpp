@@ -504,7 +504,7 @@ constexpr Entry<R> entries[] = {
 #define VNDF_ENTRIES(ndf, N, pair)                                              \
     {"vndf_" #ndf "_" #pair, evaluate_pair<R, Terms<N, R>::pair>},              \
     {"vndf_" #ndf "_" #pair "_lobe", evaluate_pair<R, Terms<N, R>::pair>},
-    VNDF_ENTRIES(ggx, Ggx, pdf_wi_both) VNDF_BOTH(eval_pdf)
+    VNDF_BOTH(pdf_wi_both) VNDF_BOTH(eval_pdf)
 #undef VNDF_ENTRIES
 #undef VNDF_BOTH
     {"vndf_ggx_pdf_wi_eto2023_lobe", evaluate_term<R, ggx_pdf_wi_bounded_of<R, bound<R>>>},

@@ -197,10 +197,34 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 
     return vndf_impl_beckmann_pdf_wi(vndf_beckmann_lobe_of(wo, alpha), wi);
 }
 
-// The same for many wi and one wo and alpha. Of the density the other way, of wo seen from wi, that is of wi's lobe.
+// The same for many wi and one wo and alpha.
 // Accuracy: 15 eps (1 + 2 q); double 14.
 VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
     return vndf_impl_beckmann_pdf_wi(lobe, wi);
+}
+
+// The density the other way is that of wi's lobe.
+VNDF_FN VNDF_REAL2 vndf_impl_beckmann_pdf_wi_both(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    VNDF_REAL3 wo = VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z);
+    return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(lobe, wi),
+                      vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo));
+}
+
+// The densities of a reflection both ways, as bidirectional methods need them: that of wi seen from wo, and that of wo
+// seen from wi.
+// Source: Heitz & d'Eon 2014, with the reflection Jacobian: D(h) / (4 sigma(wo)) and D(h) / (4 sigma(wi)), h = wo + wi.
+// wo, wi: unit vectors, local frame, anywhere on the sphere.
+// return: (vndf_beckmann_pdf_wi(wo, wi), vndf_beckmann_pdf_wi(wi, wo)), bit for bit, per steradian of wi and of wo.
+// Accuracy: 15 eps (1 + 2 q); double 14.
+//     Below alpha = 1e-2 the rounding of wi moves both by more than that.
+VNDF_FN VNDF_REAL2 vndf_beckmann_pdf_wi_both(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
+    return vndf_impl_beckmann_pdf_wi_both(vndf_beckmann_lobe_of(wo, alpha), wi);
+}
+
+// The same for many wi and one wo and alpha.
+// Accuracy: 15 eps (1 + 2 q); double 14.
+VNDF_FN VNDF_REAL2 vndf_beckmann_pdf_wi_both_lobe(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
+    return vndf_impl_beckmann_pdf_wi_both(lobe, wi);
 }
 
 // The value is the density times sigma(wo) / (o i / G2): powers of two apart, since the density may leave the range of

@@ -54,7 +54,8 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
 
     // How far |x| is from a; where that is little, by the first terms of erf a - erf |x| = 2 share.
     VNDF_REAL linear = VNDF_SQRT_PI * share / i.gaussian;
-    int close = !outer && linear * (VNDF_R(1.0) + a) < VNDF_R(0.001953125);
+    int close = !outer && linear * (VNDF_R(1.0) + a) <
+                              (VNDF_DOUBLE ? VNDF_R(1.9073486328125e-06) : VNDF_R(0.001953125));
     VNDF_REAL gap = close ? VNDF_FMA(-a * linear, linear, linear) : a - size, wide = a + size;
 
     // The sign of x by its share of the projected area, all times 2 a.

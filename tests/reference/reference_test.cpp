@@ -300,7 +300,8 @@ TEST_CASE("the comparison with the table notices seeded errors") {
     }
     CHECK(worst_of<double>("vndf_ggx_pdf_wi", {}, scaled(0, 4)).error > table_bound);  // no Jacobian
     for (const std::size_t number : {0, 1})
-        for (const char* pair : {"vndf_ggx_pdf_wi_both", "vndf_ggx_eval_pdf", "vndf_beckmann_eval_pdf"})
+        for (const char* pair : {"vndf_ggx_pdf_wi_both", "vndf_beckmann_pdf_wi_both", "vndf_ggx_eval_pdf",
+                                 "vndf_beckmann_eval_pdf"})
             CHECK(worst_of<double>(pair, {}, scaled(number, 1 + 1e-12)).error > table_bound);
     CHECK(worst_of<double>("vndf_ggx_sample_wm_heitz2018", {}, scaled(3, 1 + 1e-10)).error > table_bound);
     CHECK(worst_of<double>("vndf_ggx_sample_wm_heitz2017", {}, scaled(1, -1)).error >

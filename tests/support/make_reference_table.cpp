@@ -1034,10 +1034,8 @@ void terms(Table& table) {
                 table.row(prefix + "pdf_wm", join({w, wm, alpha}));
                 table.row(prefix + "pdf_wi", join({w, wi, alpha}));
                 table.row(prefix + "eval_pdf", join({w, wi, alpha}));
-                if (prefix == "vndf_ggx_") {
-                    table.row(prefix + "pdf_wi_both", join({w, wi, alpha}));
-                    table.row(prefix + "pdf_wi_eto2023", join({w, wi, alpha}));
-                }
+                table.row(prefix + "pdf_wi_both", join({w, wi, alpha}));
+                if (prefix == "vndf_ggx_") table.row(prefix + "pdf_wi_eto2023", join({w, wi, alpha}));
             }
             if (prefix == "vndf_ggx_" && k % 5 == 1) {
                 const std::vector<double> n = {0, 0, 1};

@@ -29,3 +29,17 @@
      "above ? VNDF_R(1.0) / wi.z : VNDF_R(1.0)",
      "vndf_beckmann_eval_pdf_lobe",
      {"pointwise, maximum"}},
+    {"Beckmann: both densities of a reflection by the area that wo sees",
+     "beckmann.h",
+     "vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo)",
+     "vndf_impl_beckmann_pdf_wi(lobe, wi)",
+     "vndf_beckmann_pdf_wi_both",
+     {"pointwise, maximum"}},
+    {"Beckmann: both densities in the other order",
+     "beckmann.h",
+     "return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(lobe, wi),\n"
+     "                      vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo));",
+     "return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo),\n"
+     "                      vndf_impl_beckmann_pdf_wi(lobe, wi));",
+     "vndf_beckmann_pdf_wi_both_lobe",
+     {"pointwise, maximum"}},
