@@ -24,7 +24,7 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_lets_in(VNDF_REAL cosine, VNDF_REAL eta) {
 // paint reflects it all.
 // Source: Jakob, Mitsuba renderer, 2010, the smooth plastic: T(wo) T(wi) albedo / (pi eta^2 (1 - albedo R)), T = 1 - F(cos) and
 //     R the reflectance from inside, averaged; here a / (1 + (1 - a) q) (1 + q) / eta^2, 1 + q = 1 / (1 - R), q by a fit.
-// Accuracy of the fit: 1.4e-3 of 1 + q for eta in [1, 4].
+// Accuracy of the fit: 1.4e-3 of 1 + q for eta in [1, 4]. An index below 1 counts as its reciprocal: white paint then loses light.
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_bsdf_lobe d;
     struct vndf_impl_interface n = v.media;

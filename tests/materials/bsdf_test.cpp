@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "conformance/judge/statistics.h"
+#include "reference/integrals.h"
 #include "reference/materials.h"
 #include "registry.h"
 #include "splitmix64.h"
@@ -587,6 +588,45 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
     return {chi2, furnace, kept, mean, lost, closed};
 }
 
+// What an interface of index eta reflects of diffuse light inwards: from inside, all beyond the critical angle.
+double reflected_inwards(double eta) {
+    double sum = 1 - 1 / (eta * eta);
+    const double rest = 1 / (eta * eta);
+    // In the root of the distance from the critical angle, where the reflectance has one.
+    reference::gauss<40>(0, 1, [&](double s, double weight) {
+        const double cosine = std::sqrt(1 - rest * (1 - s * s));
+        sum += reference::fresnel_dielectric<double>(cosine, 1 / eta) * rest * 2 * s * weight;
+    });
+    return sum;
+}
+
+// Paint under a smooth interface, against the integral that the kernels and the reference have a fit of.
+Findings check_plastic(const Choice& choice, const BsdfProgram& program) {
+    if (choice.model.energy != MaterialModel::Energy::none) return {};
+    Worst worst("light between paint and interface", 1.4e-3);
+    std::vector<Row> rows;
+    for (int i = 0; i <= 300; ++i)
+        for (const double albedo : {1., .5, .1}) {
+            Row row;
+            Parameters& m = row.material;
+            m.metal = m.transmission = 0, m.alpha_x = m.alpha_y = 1e-6;
+            m.ior = 1 + .01 * i;
+            m.albedo = {albedo, albedo, albedo};
+            row.wi = direction(.9, 0);
+            rows.push_back(rounded(row));
+        }
+    const Columns values = program.eval_pdf(columns(rows, false));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        const double ior = row.material.ior, albedo = row.material.albedo[0];
+        double expected = albedo / (ior * ior * (1 - albedo * reflected_inwards(ior))) * row.wi.z / pi;
+        for (const Vector& w : {row.wo, row.wi})
+            expected *= 1 - reference::fresnel_dielectric<double>(w.z, ior);
+        worst.add(std::abs(values[0][i] / expected - 1), row);
+    }
+    return {worst};
+}
+
 Findings operator+(Findings a, const Findings& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
@@ -596,7 +636,7 @@ Findings check_all(const Choice& choice, const BsdfProgram& program, std::size_t
                    const std::vector<Lobe>& lobes, std::size_t samples) {
     return check_values(choice, program, count) + check_weights(choice, program, count) +
            check_hard(choice, program, count) + check_reciprocity(choice, program, count) +
-           check_lobes(choice, program, lobes, samples);
+           check_plastic(choice, program) + check_lobes(choice, program, lobes, samples);
 }
 
 void expect_passed(const Choice& choice, const Findings& findings) {
