@@ -45,6 +45,13 @@ struct vndf_bsdf {
 #if VNDF_TINT
     struct vndf_rgb transmittance;  // a factor on what goes through
 #endif
+#if VNDF_DISPERSION
+    VNDF_REAL dispersion;  // 20 over Abbe's number (medium.h); 0: one index for all light
+    int channel;           // whose index counts: 0, red, 1, green, or 2, blue
+#endif
+#if VNDF_ABSORPTION
+    struct vndf_rgb absorption;  // what the body behind absorbs in a unit of length, >= 0
+#endif
 #endif
 #if VNDF_SHADING_NORMAL
     VNDF_REAL ng_x, ng_y,

@@ -10,6 +10,9 @@
 #if VNDF_DIELECTRIC
 #include "bsdf_dielectric.h"
 #endif
+#if VNDF_DIELECTRIC && (VNDF_ABSORPTION || VNDF_DISPERSION)
+#include "medium.h"
+#endif
 #if VNDF_CONDUCTOR && !VNDF_CHOSEN(VNDF_ENERGY, none)
 #include "bsdf_energy.h"
 #endif
@@ -29,7 +32,14 @@ struct vndf_impl_interface {
 #endif
 };
 VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
+#if VNDF_DISPERSION
+    // Fraunhofer's C, d and F.
+    return vndf_eta_dispersed(
+        b.ior, b.dispersion,
+        b.channel == 1 ? VNDF_R(587.56) : (b.channel == 2 ? VNDF_R(486.13) : VNDF_R(656.27)));
+#else
     return vndf_impl_min(vndf_impl_max(b.ior, VNDF_R(1e-3)), VNDF_R(1e3));
+#endif
 }
 VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct vndf_bsdf b, VNDF_REAL side) {
     struct vndf_impl_interface n;
