@@ -12,6 +12,7 @@ BUILD holds the command `clvndf`. In every README.md:
 
 In the headers, a line `// Accuracy:` above a function of the registry states its bounds.
 """
+import collections
 import functools
 import json
 import os
@@ -26,6 +27,7 @@ INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
+MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
 
 
@@ -280,6 +282,20 @@ def mitsuba_render():
     yield "fastest of the rounds, Msamples/s: ours, Mitsuba's", f"{fastest['clvndf']:.1f}, {fastest['mitsuba']:.1f}"
 
 
+def mitsuba_bsdf():
+    """The largest of each figure over anisotropy and transport."""
+    cells = collections.defaultdict(list)
+    for row in json.loads(MITSUBA_BSDF.read_text("utf-8"))["rows"]:
+        cells[row["bsdf"], row["ndf"], row["quantity"]].append(row)
+    for (bsdf, ndf, quantity), rows in cells.items():
+        def worst(kind):
+            if kind not in rows[0]:
+                return ""
+            median, p99, most, beyond = (max(r[kind][k] for r in rows) for k in ("median", "p99", "max", "beyond"))
+            return f"{median:.0e}, {p99:.0e}, {most:.0e}; {100 * beyond:.2g} %"
+        yield f"{bsdf}, {ndf}", quantity, *map(worst, ("between", "ours", "theirs", "theirs_with_exact_g1"))
+
+
 STREAM, CACHED, COMPUTE, PUBLISHED = (
     ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
@@ -307,6 +323,7 @@ TABLES = {
     "peer_angles": lambda build: peer_errors(peer_angles),
     "embree_peer": lambda build: table(["triangles", *RAYS], embree_peer()),
     "mitsuba_render": lambda build: table(["measure", "value"], mitsuba_render()),
+    "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
     "peer_densities": lambda build: peer_errors(peer_densities),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),

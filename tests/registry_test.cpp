@@ -48,6 +48,8 @@ TEST_CASE("a function takes the scalars that its arguments stand for, in their o
         {"COS_THETA_U1", {"cos_theta", "u1"}},
         {"COS_THETA_ETA_K", {"cos_theta", "eta", "k"}},
         {"COS_THETA_ETA", {"cos_theta", "eta"}},
+        {"DISTANCE_SIGMA", {"distance", "sigma"}},
+        {"ETA_DISPERSION", {"eta", "dispersion", "wavelength"}},
         {"COS_THETA_F0_F90", {"cos_theta", "f0", "f90"}},
         {"COS_THETA_F0_TINT", {"cos_theta", "f0", "tint"}},
         {"U", {"u1", "u2"}},

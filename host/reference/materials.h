@@ -82,6 +82,22 @@ Vec3<R> lambert_direction(const R& u1, const R& u2) {
     return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
 
+// Beer's law.
+template <class R>
+R transmittance(const R& distance, const R& sigma) {
+    return std::exp(-std::max<R>(distance, 0) * std::max<R>(sigma, 0));
+}
+
+// Two terms of Cauchy's formula, a + b / wavelength^2: through eta at the line d, with Abbe's number 20 / dispersion.
+template <class R>
+R eta_dispersed(const R& eta, const R& dispersion, const R& wavelength) {
+    const auto over_square = [](const R& nanometres) { return 1 / (nanometres * nanometres); };
+    const R n = within<R>(eta, R(1e-3), 1000), spread = (n - 1) * within<R>(dispersion, 0, 100) / 20,
+            f = over_square(R(48613) / 100), c = over_square(R(65627) / 100), d = over_square(R(58756) / 100);
+    const R b = spread / (f - c), a = n - b * d;
+    return within<R>(a + b * over_square(within<R>(wavelength, 300, 1000)), R(1e-3), 1000);
+}
+
 // --- A whole material ---
 
 struct MaterialModel {

@@ -466,6 +466,16 @@ R fresnel_f82_of(Reader<R> in) {
     return fresnel_f82(c, f0, in.scalar());
 }
 template <class R>
+R transmittance_of(Reader<R> in) {
+    const R distance = in.scalar();
+    return transmittance(distance, in.scalar());
+}
+template <class R>
+R eta_dispersed_of(Reader<R> in) {
+    const R eta = in.scalar(), dispersion = in.scalar();
+    return eta_dispersed(eta, dispersion, in.scalar());
+}
+template <class R>
 R lambert_pdf_of(Reader<R> in) {
     return lambert_pdf(in.vector());
 }
@@ -528,6 +538,8 @@ constexpr Entry<R> entries[] = {
     {"vndf_fresnel_cos_theta_t", evaluate_term<R, transmitted_cosine_of<R>>},
     {"vndf_fresnel_schlick", evaluate_term<R, fresnel_schlick_of<R>>},
     {"vndf_fresnel_f82", evaluate_term<R, fresnel_f82_of<R>>},
+    {"vndf_transmittance", evaluate_term<R, transmittance_of<R>>},
+    {"vndf_eta_dispersed", evaluate_term<R, eta_dispersed_of<R>>},
     {"vndf_lambert_pdf_wi", evaluate_term<R, lambert_pdf_of<R>>},
     {"vndf_lambert_sample_wi", evaluate_vector<R, lambert_direction_of<R>>},
     {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},

@@ -5,7 +5,8 @@
 namespace vndf::render {
 
 Runs VNDF_CAT(VNDF_CAT(cpp_materials_, VNDF_NDF), VNDF_CAT(_, VNDF_FRESNEL))() {
-    return {{"surface", Runner<vndf_render_surface>::run},
+    return {{"media", Runner<vndf_render_media>::run},
+            {"surface", Runner<vndf_render_surface>::run},
             {"connect", Runner<vndf_render_connect>::run},
             {"scatter", Runner<vndf_render_scatter>::run}};
 }

@@ -58,6 +58,7 @@ class CppStages final : public Stages {
     }
     std::string describe() const override { return "C++"; }
     unsigned packet() const override { return VNDF_PACKET; }
+    bool media() const override { return runs_.count("media") != 0; }
 
   private:
     Runs runs_;

@@ -80,6 +80,7 @@ class DeviceStages final : public Stages {
 
     std::string describe() const override { return program_.device().label(); }
     unsigned packet() const override { return packet_; }
+    bool media() const override { return materials_.has_kernel("vndf_render_media"); }
 
   private:
     cl::Kernel kernel(const std::string& name) const {

@@ -50,13 +50,6 @@ std::string bent_triangles(const Scene& scene) {
     return bent == 0 ? std::string() : fmt::format("{} triangles with normals of their own", bent);
 }
 
-bool dielectric(const Material& m) {
-    return m.metal < 1 && (m.ior != 1 || m.transmission > 0);
-}
-bool transmits(const Material& m) {
-    return m.metal < 1 && m.transmission > 0;
-}
-
 // What calls for each effect. One that is not here is always called for.
 const std::map<std::string, std::function<std::string(const Scene&)>>& callers() {
     static const std::map<std::string, std::function<std::string(const Scene&)>> all{
@@ -78,6 +71,15 @@ const std::map<std::string, std::function<std::string(const Scene&)>>& callers()
              return materials_that(s, [](const Material& m) {
                  return m.tint != Vec{1, 1, 1} || m.transmittance != Vec{1, 1, 1};
              });
+         }},
+        {"absorption",
+         [](const Scene& s) {
+             return materials_that(s,
+                                   [](const Material& m) { return transmits(m) && m.absorption != Vec{}; });
+         }},
+        {"dispersion",
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) { return dielectric(m) && m.dispersion != 0; });
          }},
         {"back_facing",
          [](const Scene& s) {
@@ -155,9 +157,15 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
     if (choices.energy != "none") text += " -DVNDF_ENERGY=" + choices.energy;
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
-    for (const Effect& effect : effects)
-        text += fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on && compiles(effect, choices));
-    return {"-DVNDF_RANDOM=" + choices.random, text};
+    std::string paths = "-DVNDF_RANDOM=" + choices.random;
+    for (const Effect& effect : effects) {
+        const std::string macro =
+            fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on && compiles(effect, choices));
+        text += macro;
+        // Of paths a plane, of the bodies that they are in.
+        if (effect.name == "absorption") paths += macro;
+    }
+    return {paths, text};
 }
 
 }  // namespace vndf::render

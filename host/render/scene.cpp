@@ -48,6 +48,14 @@ std::array<Material, 5> materials_of(std::string_view kind) {
     if (kind == "glass")
         return {glass(1.5f, 0.001f), glass(1.5f, 0.1f), glass(1.5f, 0.3f), glass(1.33f, 0.001f),
                 glass(2.42f, 0.001f)};
+    if (kind == "tinted") {  // the last of diamond, with three times its dispersion
+        Material diamond = glass(2.42f, 0.001f);
+        diamond.dispersion = 3 * 20 / 55.3f;
+        return {tinted(glass(1.5f, 0.001f), {0.9f, 0.3f, 0.2f}, 1),
+                tinted(glass(1.5f, 0.1f), {0.9f, 0.6f, 0.1f}, 1),
+                tinted(glass(1.5f, 0.3f), {0.2f, 0.7f, 0.3f}, 1),
+                tinted(glass(1.33f, 0.001f), {0.3f, 0.6f, 0.9f}, 1), diamond};
+    }
     if (kind == "plastic")
         return {plastic({0.7f, 0.2f, 0.15f}, 0.02f), plastic({0.7f, 0.5f, 0.2f}, 0.1f),
                 plastic({0.7f, 0.7f, 0.7f}, 0.2f), plastic({0.3f, 0.55f, 0.25f}, 0.35f),
@@ -109,6 +117,18 @@ Material plastic(Vec albedo, float alpha) {
     return m;
 }
 
+Material tinted(Material glass, Vec colour, float distance) {
+    for (int c = 0; c < 3; ++c) glass.absorption[c] = -std::log(colour[c]) / distance;
+    return glass;
+}
+
+bool dielectric(const Material& m) {
+    return m.metal < 1 && (m.ior != 1 || m.transmission > 0);
+}
+bool transmits(const Material& m) {
+    return m.metal < 1 && m.transmission > 0;
+}
+
 std::uint32_t Scene::add_material(const Material& material) {
     materials.push_back(material);
     return static_cast<std::uint32_t>(materials.size() - 1);
@@ -156,8 +176,8 @@ Sky constant_sky(float radiance) {
 }
 
 const std::vector<std::string>& orb_kinds() {
-    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",
-                                                "diffuse",   "glass",      "plastic"};
+    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals", "diffuse",
+                                                "glass",     "tinted",     "plastic"};
     return kinds;
 }
 

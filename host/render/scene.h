@@ -23,6 +23,8 @@ struct Material {
     Vec tint{1, 1, 1}, albedo{};
     float ior = 1, transmission = 0;  // of what is not metal
     Vec transmittance{1, 1, 1};
+    float dispersion = 0;  // 20 over Abbe's number
+    Vec absorption{};      // by the body behind, in a unit of length
 
     bool operator==(const Material&) const = default;
 };
@@ -30,6 +32,11 @@ Material conductor(Vec f0, float alpha_x, float alpha_y);
 Material lambert(Vec albedo);
 Material glass(float ior, float alpha);
 Material plastic(Vec albedo, float alpha);
+// Of which a way of `distance` leaves `colour` of white light, as glTF has it (KHR_materials_volume).
+Material tinted(Material glass, Vec colour, float distance);
+
+bool dielectric(const Material& m);
+bool transmits(const Material& m);
 
 struct Vertex {
     Vec place, normal;

@@ -41,6 +41,8 @@ class Stages {
     virtual std::string describe() const = 0;
     // Camera rays that an item of the stage `packets` takes; 1: there is no such stage.
     virtual unsigned packet() const = 0;
+    // Whether there is the stage `media`, of paths through bodies that absorb or disperse.
+    virtual bool media() const = 0;
     // Spent in a stage so far, where stages are timed.
     virtual double seconds(const std::string&) const { return 0; }
 

@@ -33,6 +33,8 @@ std::vector<float> material_table(const Scene& scene) {
             row.insert(row.end(), rgb.begin(), rgb.end());
         row.insert(row.end(), {m.ior, m.transmission});
         row.insert(row.end(), m.transmittance.begin(), m.transmittance.end());
+        row.push_back(dielectric(m) ? m.dispersion : 0);
+        row.insert(row.end(), m.absorption.begin(), m.absorption.end());
         return row;
     });
 }

@@ -77,10 +77,16 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
         const std::uint32_t packet = bounce == 0 ? stages_.packet() : 1;
         stages_.launch(packet > 1 ? "packets" : "traverse", (count + packet - 1) / packet,
                        {nodes_, leaves_, path, count, stride_, hit_, triangle_});
+        const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce;
+        // Behind the last bounce there are no random numbers, and no use for one.
+        const std::uint32_t channel_quad = bounce == settings_.max_bounces ? 0 : light_quad;
+        if (stages_.media())
+            stages_.launch("media", whole_chunks(count),
+                           {&sizes_, vertices_, triangles_, materials_, hit_, triangle_, word_buffer_,
+                            channel_quad, slot, first, count, stride_, path});
         stages_.launch("leave", count, {&sky_, path, triangle_, slot, count, stride_, light_});
         if (bounce == settings_.max_bounces) return;
-        const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce,
-                            bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce,
+        const std::uint32_t bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce,
                             chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
         const std::int32_t roulette = bounce >= roulette_from;
         const std::size_t whole = whole_chunks(count);

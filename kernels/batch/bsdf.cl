@@ -2,6 +2,7 @@
 // arrays are the same whatever is switched off; those of a parameter that is not in the program are not read.
 //
 //   vndf_batch_bsdf_eval_pdf   wo, wi, the material -> f for each channel, pdf
+//   vndf_batch_bsdf_transmittance   distance, the material -> what is left of each channel
 //   vndf_batch_bsdf_sample     wo, u1, u2, u_lobe, the material -> wi, the weight for each channel, pdf, the lobe
 #include "../vndf/bsdf.h"
 
@@ -15,7 +16,10 @@
     VNDF_BSDF_RGB(S, second)    \
     VNDF_BSDF_RGB(S, tint)      \
     VNDF_BSDF_RGB(S, albedo)    \
-    S(metal) S(ior) S(transmission) VNDF_BSDF_RGB(S, transmittance) VNDF_BSDF_XYZ(S, ng)
+    S(metal)                    \
+    S(ior)                      \
+    S(transmission)             \
+    VNDF_BSDF_RGB(S, transmittance) S(dispersion) S(channel) VNDF_BSDF_RGB(S, absorption) VNDF_BSDF_XYZ(S, ng)
 
 #define VNDF_BSDF_IN(v) __global const VNDF_REAL *restrict in_##v,
 #define VNDF_BSDF_OUT(v) __global VNDF_REAL *restrict out_##v,
@@ -62,6 +66,18 @@
 #else
 #define VNDF_BSDF_LOAD_TRANSMITTANCE
 #endif
+#if VNDF_DIELECTRIC && VNDF_DISPERSION
+#define VNDF_BSDF_LOAD_DISPERSION    \
+    b.dispersion = in_dispersion[i]; \
+    b.channel = (int)in_channel[i];
+#else
+#define VNDF_BSDF_LOAD_DISPERSION
+#endif
+#if VNDF_DIELECTRIC && VNDF_ABSORPTION
+#define VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_RGB(absorption, absorption)
+#else
+#define VNDF_BSDF_LOAD_ABSORPTION
+#endif
 #if VNDF_LAMBERT
 #define VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_RGB(albedo, albedo)
 #else
@@ -92,7 +108,7 @@
 #define VNDF_BSDF_LOAD                                                                             \
     VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT       \
         VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_IOR \
-            VNDF_BSDF_LOAD_NG
+            VNDF_BSDF_LOAD_DISPERSION VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_NG
 
 // The item of a work-item; bench goes through few groups of them again and again, which stay in cache.
 #ifdef VNDF_BSDF_GROUPS
@@ -111,6 +127,19 @@ __kernel void vndf_batch_bsdf_eval_pdf(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) VNDF_BSDF
         VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]), VNDF_MAKE3(in_wi_x[i], in_wi_y[i], in_wi_z[i]), b);
     VNDF_BSDF_STORE_RGB(f, value.f)
     out_pdf[i] = value.pdf;
+}
+
+__kernel void vndf_batch_bsdf_transmittance(VNDF_BSDF_IN(distance) VNDF_BSDF_PARAMETERS(VNDF_BSDF_IN)
+                                                __global VNDF_REAL* restrict out_r,
+                                            __global VNDF_REAL* restrict out_g,
+                                            __global VNDF_REAL* restrict out_b) {
+    const size_t i = VNDF_BSDF_ITEM;
+    struct vndf_bsdf b;
+    VNDF_BSDF_LOAD
+    const struct vndf_rgb left = vndf_bsdf_transmittance(b, in_distance[i]);
+    out_r[i] = left.r;
+    out_g[i] = left.g;
+    out_b[i] = left.b;
 }
 
 __kernel void vndf_batch_bsdf_sample(VNDF_BSDF_XYZ(VNDF_BSDF_IN, wo) VNDF_BSDF_IN(u1) VNDF_BSDF_IN(u2)

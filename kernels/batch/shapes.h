@@ -74,6 +74,14 @@
 #define VNDF_CALL_COS_THETA_ETA cos_theta, eta
 #define VNDF_ARGUMENTS_COS_THETA_ETA "cos_theta, eta"
 
+#define VNDF_SCALARS_DISTANCE_SIGMA(S) S(distance) S(sigma)
+#define VNDF_CALL_DISTANCE_SIGMA distance, sigma
+#define VNDF_ARGUMENTS_DISTANCE_SIGMA "distance, sigma"
+
+#define VNDF_SCALARS_ETA_DISPERSION(S) S(eta) S(dispersion) S(wavelength)
+#define VNDF_CALL_ETA_DISPERSION eta, dispersion, wavelength
+#define VNDF_ARGUMENTS_ETA_DISPERSION "eta, dispersion, wavelength"
+
 #define VNDF_SCALARS_COS_THETA_F0_F90(S) S(cos_theta) S(f0) S(f90)
 #define VNDF_CALL_COS_THETA_F0_F90 cos_theta, f0, f90
 #define VNDF_ARGUMENTS_COS_THETA_F0_F90 "cos_theta, f0, f90"

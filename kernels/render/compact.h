@@ -3,6 +3,7 @@
 #ifndef VNDF_RENDER_COMPACT_H
 #define VNDF_RENDER_COMPACT_H
 
+#include "../vndf/effects.h"
 #include "language.h"
 #include "queues.h"
 
@@ -48,6 +49,9 @@ VNDF_RENDER_KERNEL vndf_render_move(VNDF_RENDER_IN(float) path, VNDF_RENDER_IN(u
     path_to[VNDF_PATH_GREEN * stride + to] = path[VNDF_PATH_GREEN * stride + i];
     path_to[VNDF_PATH_BLUE * stride + to] = path[VNDF_PATH_BLUE * stride + i];
     path_to[VNDF_PATH_PDF * stride + to] = path[VNDF_PATH_PDF * stride + i];
+#if VNDF_ABSORPTION
+    path_to[VNDF_PATH_BODY * stride + to] = path[VNDF_PATH_BODY * stride + i];
+#endif
     slot_to[to] = slot[i];
 }
 

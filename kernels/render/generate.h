@@ -2,6 +2,7 @@
 #ifndef VNDF_RENDER_GENERATE_H
 #define VNDF_RENDER_GENERATE_H
 
+#include "../vndf/effects.h"
 #include "random.h"
 #include "vector.h"
 
@@ -26,6 +27,9 @@ VNDF_RENDER_KERNEL vndf_render_generate(const struct vndf_render_view view, VNDF
                       i);
     vndf_render_store(vndf_render_vector_of(1.0f, 1.0f, 1.0f), path, VNDF_PATH_RED, stride, i);
     path[VNDF_PATH_PDF * stride + i] = VNDF_CERTAIN;
+#if VNDF_ABSORPTION
+    path[VNDF_PATH_BODY * stride + i] = 0.0f;
+#endif
     slot[i] = i;
     light[i] = 0.0f;
     light[stride + i] = 0.0f;

@@ -40,6 +40,7 @@ struct vndf_render_direction {
 struct vndf_render_row {
     uint count, number;
     float one;
+    int channel;  // that light is carried in: of a surface with a dispersion the only one
 };
 
 // Three channels. LLVM would pack neighbours of which the same is computed, and PoCL then not vectorise across work-items: for
@@ -90,6 +91,13 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #if VNDF_TINT
     b.transmittance = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_TRANSMITTANCE);
 #endif
+#if VNDF_DISPERSION
+    b.dispersion = materials[VNDF_MATERIAL_DISPERSION * row.count + row.number];
+    b.channel = row.channel;
+#endif
+#if VNDF_ABSORPTION
+    b.absorption = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_ABSORPTION);
+#endif
 #endif
 #if VNDF_SHADING_NORMAL
     b.ng_x = ng_x;
@@ -102,6 +110,20 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #endif
     return b;
 }
+
+#if VNDF_DIELECTRIC && VNDF_ABSORPTION
+// What the body (VNDF_PATH_BODY) leaves of light after a way through it; everything outside of all.
+VNDF_FN struct vndf_rgb vndf_render_left(struct vndf_render_sizes sizes, VNDF_RENDER_FROM(float) materials,
+                                         float body, float length) {
+    struct vndf_render_row row;
+    row.count = sizes.materials;
+    row.number = body > 0.0f ? (uint)(int)body - 1 : 0;
+    row.one = sizes.one;
+    row.channel = 0;
+    return vndf_bsdf_transmittance(vndf_render_bsdf_of(materials, row, 0.0f, 0.0f, 1.0f),
+                                   body > 0.0f ? length : 0.0f);
+}
+#endif
 
 // f / pdf.
 VNDF_FN struct vndf_rgb vndf_render_over(struct vndf_rgb f, float pdf) {

@@ -14,7 +14,9 @@
 #define VNDF_PATH_GREEN 7
 #define VNDF_PATH_BLUE 8
 #define VNDF_PATH_PDF 9
-#define VNDF_PATH_PLANES 10
+#define VNDF_PATH_BODY \
+    10  // that it is in: 1 + the number of its material, 0 outside of all; with VNDF_ABSORPTION
+#define VNDF_PATH_PLANES 11
 
 // Where a ray met the mesh: barycentric coordinates of corners 1 and 2. Of a ray that met nothing the triangle is VNDF_MISS.
 #define VNDF_HIT_B1 0
@@ -55,7 +57,7 @@
 // Random numbers come four at a time: of the camera, then of each bounce the light's and the BSDF's. Each use has its own, so
 // that leaving one out moves the numbers of no other. Of each four the host prepares some words (random.h).
 #define VNDF_QUAD_CAMERA 0  // a, b: the place in the pixel
-#define VNDF_QUAD_LIGHT 1   // a: which light, b, c: the direction
+#define VNDF_QUAD_LIGHT 1   // a: which light, b, c: the direction, d: the channel of a dispersion
 #define VNDF_QUAD_BSDF 2    // a, b: the direction, c: the lobe, d: survival
 #define VNDF_QUAD_BOUNCE 2  // of each bounce
 #define VNDF_QUAD_WORDS 9
@@ -95,7 +97,9 @@
 #define VNDF_MATERIAL_IOR 15
 #define VNDF_MATERIAL_TRANSMISSION 16
 #define VNDF_MATERIAL_TRANSMITTANCE 17
-#define VNDF_MATERIAL_PLANES 20
+#define VNDF_MATERIAL_DISPERSION 20
+#define VNDF_MATERIAL_ABSORPTION 21
+#define VNDF_MATERIAL_PLANES 24
 
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {

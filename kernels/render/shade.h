@@ -5,21 +5,34 @@
 #define VNDF_RENDER_SHADE_H
 
 #include "lights.h"
-#include "material.h"
+#include "media.h"
 #include "vector.h"
 
 // Three planes of a queue as an argument of the library.
 VNDF_FN VNDF_REAL3 vndf_render_argument(VNDF_RENDER_FROM(float) planes, uint k, uint stride, uint i) {
     return VNDF_MAKE3(planes[k * stride + i], planes[(k + 1) * stride + i], planes[(k + 2) * stride + i]);
 }
+// The channel of a path that carries one.
+VNDF_FN int vndf_render_channel(VNDF_RENDER_FROM(float) path, uint stride, uint i) {
+#if VNDF_DIELECTRIC && VNDF_DISPERSION
+    const int green = path[VNDF_PATH_GREEN * stride + i] > 0.0f;
+    return path[VNDF_PATH_RED * stride + i] > 0.0f ? 0 : (green ? 1 : 2);
+#else
+    (void)path;
+    (void)stride;
+    (void)i;
+    return 0;
+#endif
+}
 VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
                                              VNDF_RENDER_FROM(float) materials, uint number,
-                                             VNDF_RENDER_FROM(float) surface, float turn, uint stride,
-                                             uint i) {
+                                             VNDF_RENDER_FROM(float) surface, VNDF_RENDER_FROM(float) path,
+                                             float turn, uint stride, uint i) {
     struct vndf_render_row row;
     row.count = sizes.materials;
     row.number = number == VNDF_MISS ? 0 : number;
     row.one = sizes.one;
+    row.channel = vndf_render_channel(path, stride, i);
     return vndf_render_bsdf_of(materials, row, turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
                                turn * surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
                                surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i]);
@@ -49,7 +62,7 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
     const uint i = VNDF_RENDER_ITEM;
     const float turn = vndf_render_turn(surface, stride, i);
     const struct vndf_bsdf bsdf =
-        vndf_render_bsdf_at(sizes, materials, material[i], surface, turn, stride, i);
+        vndf_render_bsdf_at(sizes, materials, material[i], surface, path, turn, stride, i);
     const VNDF_REAL3 wi = vndf_render_argument(lights, VNDF_LIGHT_X, stride, i);
     const struct vndf_render_value value = vndf_render_evaluate(
         vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),
@@ -64,9 +77,15 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
     const int reached = material[i] != VNDF_MISS && light_pdf > 0.0f;
 #endif
     const float share = reached ? ratio * vndf_render_mis(ratio) : 0.0f;
-    lights[VNDF_LIGHT_RED * stride + i] *= path[VNDF_PATH_RED * stride + i] * (share * value.weight.r);
-    lights[VNDF_LIGHT_GREEN * stride + i] *= path[VNDF_PATH_GREEN * stride + i] * (share * value.weight.g);
-    lights[VNDF_LIGHT_BLUE * stride + i] *= path[VNDF_PATH_BLUE * stride + i] * (share * value.weight.b);
+    struct vndf_rgb weight = value.weight;
+#if VNDF_DIELECTRIC && VNDF_ABSORPTION
+    // The light comes from forever away.
+    weight = vndf_impl_rgb_product(
+        weight, vndf_render_left(sizes, materials, path[VNDF_PATH_BODY * stride + i], VNDF_RENDER_FOREVER));
+#endif
+    lights[VNDF_LIGHT_RED * stride + i] *= path[VNDF_PATH_RED * stride + i] * (share * weight.r);
+    lights[VNDF_LIGHT_GREEN * stride + i] *= path[VNDF_PATH_GREEN * stride + i] * (share * weight.g);
+    lights[VNDF_LIGHT_BLUE * stride + i] *= path[VNDF_PATH_BLUE * stride + i] * (share * weight.b);
 }
 
 #if VNDF_DIELECTRIC
@@ -94,7 +113,7 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
     const uint i = VNDF_RENDER_ITEM;
     const float turn = vndf_render_turn(surface, stride, i);
     const struct vndf_bsdf bsdf =
-        vndf_render_bsdf_at(sizes, materials, material[i], surface, turn, stride, i);
+        vndf_render_bsdf_at(sizes, materials, material[i], surface, path, turn, stride, i);
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
     const struct vndf_render_direction wi =
         vndf_render_draw(vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),
@@ -108,6 +127,11 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
     // Through the surface the path goes on from its other side. A light in its way counts in full: none was sampled there.
     const int crosses = z < 0.0f;
     vndf_render_pass(surface, crosses, path, stride, i);
+#if VNDF_ABSORPTION
+    const float body = path[VNDF_PATH_BODY * stride + i],
+                entered = turn > 0.0f ? (float)(int)material[i] + 1.0f : 0.0f;
+    path[VNDF_PATH_BODY * stride + i] = crosses ? entered : body;
+#endif
     path[VNDF_PATH_PDF * stride + i] =
         crosses ? 1e30f : vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
 #else

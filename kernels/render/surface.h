@@ -14,6 +14,14 @@ VNDF_FN struct vndf_render_vector vndf_render_mix(struct vndf_render_vector a, s
                                  VNDF_FMA(b0, a.z, VNDF_FMA(b1, b.z, b2 * c.z)));
 }
 
+// Where corner `k` of a triangle is.
+VNDF_FN struct vndf_render_vector vndf_render_corner(struct vndf_render_sizes sizes,
+                                                     VNDF_RENDER_FROM(float) vertices,
+                                                     VNDF_RENDER_FROM(uint) triangles, uint number, uint k) {
+    return vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
+                                 triangles[k * sizes.triangles + number]);
+}
+
 // -1 where a surface with two sides is seen from behind.
 VNDF_FN float vndf_render_side(struct vndf_render_vector face, struct vndf_render_vector wo) {
 #if VNDF_BACK_FACING
@@ -34,15 +42,14 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
     // What met nothing gets some surface, and no other stage asks for it.
     const int met = i < count && triangle[i] != VNDF_MISS;
     const uint number = met ? triangle[i] : 0;
+#if VNDF_SHADING_NORMAL
     const uint first = triangles[number], second = triangles[sizes.triangles + number],
                third = triangles[2 * sizes.triangles + number];
+#endif
     const float b1 = hit[VNDF_HIT_B1 * stride + i], b2 = hit[VNDF_HIT_B2 * stride + i];
-    const struct vndf_render_vector a = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
-                                                              first),
-                                    b = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
-                                                              second),
-                                    c = vndf_render_vector_at(vertices, VNDF_VERTEX_PLACE, sizes.vertices,
-                                                              third);
+    const struct vndf_render_vector a = vndf_render_corner(sizes, vertices, triangles, number, 0),
+                                    b = vndf_render_corner(sizes, vertices, triangles, number, 1),
+                                    c = vndf_render_corner(sizes, vertices, triangles, number, 2);
     const struct vndf_render_vector wo =
         vndf_render_scaled(-1.0f, vndf_render_vector_at(path, VNDF_PATH_DX, stride, i));
     const struct vndf_render_vector ab = vndf_render_sum(b, -1.0f, a), ac = vndf_render_sum(c, -1.0f, a);

@@ -14,6 +14,12 @@
 // side of both normals; the rest meets a Lambertian surface. A material with transmission > 0 bounds a body: seen from behind
 // its index is turned over. Without it, behind is as in front.
 //
+// With VNDF_DISPERSION the index is that of one channel. A path takes one of its channels, at the first surface with a dispersion,
+// with a random number of its own and a probability in proportion to what it carries in each, and carries on the sum in that one: what
+// was chosen once is chosen for certain from there on, and nothing is biased. (A mix of the channels' densities, hero wavelengths,
+// would have every material evaluated three times, and where the glass is smooth, where it shows, the three have no direction in
+// common: it gains nothing there.)
+//
 // Where shading and geometric normal differ, light ends abruptly at the geometric horizon; VNDF_TERMINATOR fades it out
 // before, and is not reciprocal, as no such correction is.
 #ifndef VNDF_BSDF_H
@@ -40,11 +46,30 @@ struct vndf_bsdf_direction {
 
 // --- The mix ---
 
-#if (VNDF_CONDUCTOR || VNDF_DIELECTRIC) && VNDF_IMPL_DIFFUSE
-// Its weight and density from those of its parts. Where one part has the whole share those of that part, to the bit.
-VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_impl_specular s, VNDF_REAL specular_pdf,
-                                             struct vndf_impl_diffuse d, VNDF_REAL lambert_pdf) {
-    VNDF_REAL own = s.share * specular_pdf, other = d.share * lambert_pdf, sum = own + other;
+// All lobes at a pair of directions.
+struct vndf_impl_bsdf_lobes {
+#if VNDF_IMPL_SPECULAR
+    struct vndf_impl_specular specular;
+#endif
+#if VNDF_IMPL_DIFFUSE
+    struct vndf_impl_bsdf_lobe diffuse;
+#endif
+};
+VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_of(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobes l;
+#if VNDF_IMPL_SPECULAR
+    l.specular = vndf_impl_bsdf_specular(v, i);
+#endif
+#if VNDF_IMPL_DIFFUSE
+    l.diffuse = vndf_impl_bsdf_diffuse(v, i);
+#endif
+    return l;
+}
+
+#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+// Where one lobe has the whole share its weight and density, to the bit.
+VNDF_FN struct vndf_rgb vndf_impl_mixed(struct vndf_impl_bsdf_lobe s, struct vndf_impl_bsdf_lobe d) {
+    VNDF_REAL own = s.share * s.pdf, other = d.share * d.pdf, sum = own + other;
     // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
     // has left nothing of either density it is the specular one's.
     int less = other <= own;
@@ -55,11 +80,102 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_mixed(struct vndf_impl_specular s, VNDF_R
                          VNDF_FMA(share, d.weight.g, rest * s.weight.g),
                          VNDF_FMA(share, d.weight.b, rest * s.weight.b));
 }
-VNDF_FN VNDF_REAL vndf_impl_bsdf_mixed_pdf(struct vndf_impl_specular s, VNDF_REAL specular_pdf,
-                                           struct vndf_impl_diffuse d, VNDF_REAL lambert_pdf) {
-    return VNDF_FMA(s.share, specular_pdf, d.share * lambert_pdf);
-}
 #endif
+
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_weight(struct vndf_impl_bsdf_lobes l) {
+#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+    return vndf_impl_mixed(l.specular.lobe, l.diffuse);
+#elif VNDF_IMPL_SPECULAR
+    return l.specular.lobe.weight;
+#else
+    return l.diffuse.weight;
+#endif
+}
+VNDF_FN VNDF_REAL vndf_impl_bsdf_density(struct vndf_impl_bsdf_lobes l) {
+#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+    struct vndf_impl_bsdf_lobe s = l.specular.lobe, d = l.diffuse;
+    return VNDF_FMA(s.share, s.pdf, d.share * d.pdf);
+#elif VNDF_IMPL_SPECULAR
+    return l.specular.lobe.share * l.specular.lobe.pdf;
+#else
+    return l.diffuse.share * l.diffuse.pdf;
+#endif
+}
+
+// Whether light crosses the surface.
+VNDF_FN int vndf_impl_bsdf_crosses(struct vndf_impl_bsdf_lobes l) {
+#if VNDF_DIELECTRIC
+    return l.specular.facet.crosses;
+#else
+    (void)l;
+    return 0;
+#endif
+}
+
+// --- A sample of it ---
+
+VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn(struct vndf_impl_bsdf_view v, VNDF_REAL2 u,
+                                                    VNDF_REAL u_lobe) {
+#if VNDF_IMPL_SPECULAR
+    struct vndf_impl_drawn d = vndf_impl_bsdf_drawn_specular(v, u, u_lobe);
+#else
+    struct vndf_impl_drawn d;
+    (void)v;
+    (void)u_lobe;
+    d.lobe = VNDF_BSDF_LAMBERT;
+#endif
+#if VNDF_IMPL_DIFFUSE
+    struct vndf_impl_sample even = vndf_impl_lambert(u);
+#if VNDF_IMPL_SPECULAR
+    int specular = d.lobe != VNDF_BSDF_LAMBERT;
+    d.w.x = specular ? d.w.x : even.x;
+    d.w.y = specular ? d.w.y : even.y;
+    d.w.z = specular ? d.w.z : even.z;
+#else
+    d.w = even;
+#endif
+#endif
+    return d;
+}
+
+// All lobes at the direction that was drawn: their weights.
+VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_at(struct vndf_impl_bsdf_view v,
+                                                            struct vndf_impl_drawn d) {
+    VNDF_REAL z = d.w.z;
+#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+    // Made dependent on the density of the sample, so that LLVM's SLP pass does not pack it with the one at wi (impl/stretch.h);
+    // the other choice is never taken.
+    z = d.w.pdf < VNDF_R(0.0) ? VNDF_R(1.0) : z;
+#endif
+    return vndf_impl_bsdf_lobes_of(v, VNDF_MAKE3(d.w.x, d.w.y, z));
+}
+
+// Its density from the sampler's own terms where it is specular.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_drawn_density(struct vndf_impl_bsdf_lobes l, struct vndf_impl_drawn d) {
+#if VNDF_IMPL_SPECULAR
+    l.specular.lobe.pdf = d.lobe != VNDF_BSDF_LAMBERT ? d.w.pdf : l.specular.lobe.pdf;
+#else
+    (void)d;
+#endif
+    return vndf_impl_bsdf_density(l);
+}
+
+// What is lost: a reflection below the surface, where refractions count alone; a refraction above it, or one that is none.
+VNDF_FN int vndf_impl_bsdf_lost(struct vndf_impl_bsdf_view v, struct vndf_impl_bsdf_lobes l,
+                                struct vndf_impl_drawn d) {
+#if VNDF_DIELECTRIC
+    int through = d.lobe == VNDF_BSDF_TRANSMISSION;
+    return v.media.transmits &&
+           (l.specular.facet.crosses != through || (through && !(d.w.pdf > VNDF_R(0.0))));
+#else
+    (void)v;
+    (void)l;
+    (void)d;
+    return 0;
+#endif
+}
+
+// --- Public functions ---
 
 // The BSDF times |cos(theta_i)|, and the density of vndf_bsdf_sample.
 // Source: Walter et al. 2007, Equations 20 and 21, with the terms of bsdf_facets.h and bsdf_dielectric.h; Lambert's albedo / pi.
@@ -70,49 +186,12 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_mixed_pdf(struct vndf_impl_specular s, VNDF_REA
 //     Of pdf; of f as vndf_bsdf_eval. Below alpha = 1e-2 the rounding of wi moves both by more than that, and equally.
 VNDF_FN struct vndf_bsdf_value vndf_bsdf_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf bsdf) {
     struct vndf_bsdf_value value;
-    VNDF_REAL side = vndf_impl_bsdf_side(wo, bsdf);
-    VNDF_REAL3 o = VNDF_MAKE3(wo.x, wo.y, side * wo.z), i = VNDF_MAKE3(wi.x, wi.y, side * wi.z);
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    struct vndf_impl_facets c = vndf_impl_facets_of(o, vndf_impl_bsdf_alpha(bsdf));
-#if VNDF_DIELECTRIC
-    struct vndf_impl_interface n = vndf_impl_interface_of(o, bsdf, side);
-    struct vndf_impl_specular s = vndf_impl_bsdf_specular(bsdf, c, n, o, i);
-#else
-    struct vndf_impl_specular s = vndf_impl_bsdf_specular(bsdf, c, o, i);
-#endif
-#if VNDF_IMPL_KULLA_CONTY
-    struct vndf_impl_kulla_conty m = vndf_impl_bsdf_kulla_conty(bsdf, o);
-    s = vndf_impl_bsdf_beside(s, m);
-#endif
-    struct vndf_rgb weight = s.weight;
-    value.pdf = vndf_impl_bsdf_specular_pdf(c, s, i);
-#endif
-#if VNDF_IMPL_DIFFUSE
-    VNDF_REAL lambert_pdf = vndf_lambert_pdf_wi(i);
-#if VNDF_DIELECTRIC
-    struct vndf_impl_diffuse d = vndf_impl_bsdf_diffuse(bsdf, n, o, i);
-#elif VNDF_IMPL_KULLA_CONTY
-    struct vndf_impl_diffuse d = vndf_impl_bsdf_diffuse(bsdf, m, i);
-#else
-    struct vndf_impl_diffuse d = vndf_impl_bsdf_diffuse(bsdf);
-#endif
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    weight = vndf_impl_bsdf_mixed(s, value.pdf, d, lambert_pdf);
-    value.pdf = vndf_impl_bsdf_mixed_pdf(s, value.pdf, d, lambert_pdf);
-#else
-    struct vndf_rgb weight = d.weight;
-    value.pdf = lambert_pdf;
-#endif
-#elif VNDF_DIELECTRIC
-    value.pdf *= s.share;
-#endif
-#if VNDF_DIELECTRIC
-    VNDF_REAL3 onward = vndf_impl_bsdf_onward(i, s.facet.crosses);
-    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, onward, bsdf, side));
-#elif VNDF_IMPL_SIDES
-    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, i, bsdf, side));
-#endif
-    value.f = vndf_impl_rgb_scaled(weight, value.pdf);
+    struct vndf_impl_bsdf_view v = vndf_impl_bsdf_view_of(wo, bsdf);
+    VNDF_REAL3 i = VNDF_MAKE3(wi.x, wi.y, v.side * wi.z);
+    struct vndf_impl_bsdf_lobes l = vndf_impl_bsdf_lobes_of(v, i);
+    VNDF_REAL passing = vndf_impl_bsdf_passing(v, i, vndf_impl_bsdf_crosses(l));
+    value.pdf = vndf_impl_bsdf_density(l);
+    value.f = vndf_impl_rgb_scaled(vndf_impl_rgb_scaled(vndf_impl_bsdf_weight(l), passing), value.pdf);
     return value;
 }
 
@@ -147,96 +226,44 @@ VNDF_FN VNDF_REAL vndf_bsdf_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b
 VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_bsdf bsdf, VNDF_REAL2 u,
                                                     VNDF_REAL u_lobe) {
     struct vndf_bsdf_direction d;
-    VNDF_REAL side = vndf_impl_bsdf_side(wo, bsdf);
-    VNDF_REAL3 o = VNDF_MAKE3(wo.x, wo.y, side * wo.z);
-    (void)u_lobe;
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    struct vndf_impl_facets c = vndf_impl_facets_of(o, vndf_impl_bsdf_alpha(bsdf));
-#if VNDF_DIELECTRIC
-    struct vndf_impl_interface n = vndf_impl_interface_of(o, bsdf, side);
-    struct vndf_impl_drawn drawn = vndf_impl_bsdf_drawn(bsdf, c, n, o, u, u_lobe);
-#else
-    VNDF_REAL share = vndf_impl_bsdf_metal(bsdf);
-#if VNDF_IMPL_KULLA_CONTY
-    struct vndf_impl_kulla_conty m = vndf_impl_bsdf_kulla_conty(bsdf, o);
-    share *= VNDF_R(1.0) - m.share;
-#endif
-    struct vndf_impl_drawn drawn = vndf_impl_bsdf_drawn(c, u, share, u_lobe);
-#endif
-#endif
-#if VNDF_IMPL_DIFFUSE
-    struct vndf_impl_sample w = vndf_impl_lambert(u);
-    d.lobe = VNDF_BSDF_LAMBERT;
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    int specular = drawn.lobe != VNDF_BSDF_LAMBERT;
-    w.x = specular ? drawn.w.x : w.x;
-    w.y = specular ? drawn.w.y : w.y;
-    w.z = specular ? drawn.w.z : w.z;
+    struct vndf_impl_bsdf_view v = vndf_impl_bsdf_view_of(wo, bsdf);
+    struct vndf_impl_drawn drawn = vndf_impl_bsdf_drawn(v, u, u_lobe);
+    VNDF_REAL3 i = VNDF_MAKE3(drawn.w.x, drawn.w.y, drawn.w.z);
+    struct vndf_impl_bsdf_lobes l = vndf_impl_bsdf_lobes_at(v, drawn);
+    VNDF_REAL passing = vndf_impl_bsdf_passing(v, i, vndf_impl_bsdf_crosses(l));
+    int lost = vndf_impl_bsdf_lost(v, l, drawn);
+    d.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_weight(l), lost ? VNDF_R(0.0) : passing);
+    d.pdf = lost ? VNDF_R(0.0) : vndf_impl_bsdf_drawn_density(l, drawn);
+    d.wi_x = i.x;
+    d.wi_y = i.y;
+    d.wi_z = v.side * i.z;
     d.lobe = drawn.lobe;
-#endif
-#else
-    struct vndf_impl_sample w = drawn.w;
-    d.lobe = drawn.lobe;
-#endif
-    VNDF_REAL3 i = VNDF_MAKE3(w.x, w.y, w.z);
-#if VNDF_DIELECTRIC
-    struct vndf_impl_specular s = vndf_impl_bsdf_specular(bsdf, c, n, o, i);
-#elif VNDF_CONDUCTOR
-    struct vndf_impl_specular s = vndf_impl_bsdf_specular(bsdf, c, o, i);
-#endif
-#if VNDF_IMPL_KULLA_CONTY
-    s = vndf_impl_bsdf_beside(s, m);
-#endif
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    struct vndf_rgb weight = s.weight;
-#endif
-#if VNDF_IMPL_DIFFUSE
-#if VNDF_DIELECTRIC
-    struct vndf_impl_diffuse diffuse = vndf_impl_bsdf_diffuse(bsdf, n, o, i);
-#elif VNDF_IMPL_KULLA_CONTY
-    struct vndf_impl_diffuse diffuse = vndf_impl_bsdf_diffuse(bsdf, m, i);
-#else
-    struct vndf_impl_diffuse diffuse = vndf_impl_bsdf_diffuse(bsdf);
-#endif
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
-    // The weight from the density at wi as rounded, as in vndf_bsdf_eval_pdf. Below the surface nothing is diffuse.
-    VNDF_REAL lambert_pdf = vndf_lambert_pdf_wi(i);
-    // Made dependent on the density of the sample, so that LLVM's SLP pass does not pack the two (impl/stretch.h); the other
-    // choice is never taken.
-    VNDF_REAL3 known = VNDF_MAKE3(i.x, i.y, drawn.w.pdf < VNDF_R(0.0) ? VNDF_R(1.0) : i.z);
-    VNDF_REAL specular_pdf = vndf_impl_facets_pdf(c, known);
-    weight = vndf_impl_bsdf_mixed(s, specular_pdf, diffuse, lambert_pdf);
-    w.pdf = vndf_impl_bsdf_mixed_pdf(s, specular ? drawn.w.pdf : specular_pdf, diffuse, lambert_pdf);
-#else
-    struct vndf_rgb weight = diffuse.weight;
-#endif
-#elif VNDF_DIELECTRIC
-    w.pdf *= s.share;
-#endif
-#if VNDF_DIELECTRIC
-    VNDF_REAL3 onward = vndf_impl_bsdf_onward(i, d.lobe == VNDF_BSDF_TRANSMISSION);
-    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, onward, bsdf, side));
-#elif VNDF_IMPL_SIDES
-    weight = vndf_impl_rgb_scaled(weight, vndf_impl_bsdf_passing(o, i, bsdf, side));
-#endif
-#if VNDF_DIELECTRIC
-    // A reflection below the surface, where refractions count alone; a refraction above it, or one that is none.
-    int through = d.lobe == VNDF_BSDF_TRANSMISSION;
-    int lost = n.transmits && (s.facet.crosses != through || (through && !(drawn.w.pdf > VNDF_R(0.0))));
-    weight = vndf_impl_rgb_scaled(weight, lost ? VNDF_R(0.0) : VNDF_R(1.0));
-    w.pdf = lost ? VNDF_R(0.0) : w.pdf;
-#endif
-    d.weight = weight;
-    d.pdf = w.pdf;
-    d.wi_x = w.x;
-    d.wi_y = w.y;
-    d.wi_z = side * w.z;
     return d;
 }
 
-#undef VNDF_IMPL_SIDES
-#undef VNDF_IMPL_DIFFUSE
+// What is left for each channel of light that went through the body behind the surface.
+// Source: Beer's law, vndf_transmittance.
+// distance: of the way, >= 0, in the unit of length of the material's absorption.
+// return: in [0, 1]; 1 without VNDF_ABSORPTION, of what lets nothing through nobody asks.
+// Accuracy: 1.25 eps (1 + condition number); double 1.25.
+VNDF_FN struct vndf_rgb vndf_bsdf_transmittance(struct vndf_bsdf bsdf, VNDF_REAL distance) {
+#if VNDF_DIELECTRIC && VNDF_ABSORPTION
+    VNDF_REAL red = vndf_transmittance(distance, bsdf.absorption.r);
+    // Made dependent on the last channel's, so that LLVM's SLP pass does not pack them (impl/stretch.h); the other choice is never
+    // taken.
+    VNDF_REAL green = vndf_transmittance(distance, red >= VNDF_R(0.0) ? bsdf.absorption.g : VNDF_R(1.0));
+    VNDF_REAL blue = vndf_transmittance(distance, green >= VNDF_R(0.0) ? bsdf.absorption.b : VNDF_R(1.0));
+    return vndf_impl_rgb(red, green, blue);
+#else
+    (void)bsdf;
+    (void)distance;
+    return vndf_impl_rgb(VNDF_R(1.0), VNDF_R(1.0), VNDF_R(1.0));
+#endif
+}
+
+#undef VNDF_IMPL_SPECULAR
 #undef VNDF_IMPL_KULLA_CONTY
+#undef VNDF_IMPL_DIFFUSE
 
 VNDF_END
 

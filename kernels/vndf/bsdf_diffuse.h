@@ -3,7 +3,7 @@
 #ifndef VNDF_BSDF_DIFFUSE_H
 #define VNDF_BSDF_DIFFUSE_H
 
-#include "bsdf_specular.h"
+#include "bsdf_view.h"
 #if VNDF_IMPL_DIFFUSE
 #include "bsdf_lambert.h"
 #endif
@@ -11,13 +11,6 @@
 VNDF_BEGIN
 
 #if VNDF_IMPL_DIFFUSE
-
-// Its probability, and its weight, BSDF times cos(theta_i) over that and over its density: the albedo, or what a smooth
-// interface over it makes of it.
-struct vndf_impl_diffuse {
-    struct vndf_rgb weight;
-    VNDF_REAL share;
-};
 
 #if VNDF_DIELECTRIC
 
@@ -31,47 +24,50 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_lets_in(VNDF_REAL cosine, VNDF_REAL eta) {
 // paint reflects it all.
 // Source: Jakob, Mitsuba renderer, 2010, the smooth plastic: T(wo) T(wi) albedo / (pi eta^2 (1 - albedo R)), T = 1 - F(cos) and
 //     R the reflectance from inside, averaged; here a / (1 + (1 - a) q) (1 + q) / eta^2, 1 + q = 1 / (1 - R), q by a fit.
-// Accuracy of the fit: 1.4e-3 of 1 + q for eta in [1, 4].
-VNDF_FN struct vndf_impl_diffuse vndf_impl_bsdf_diffuse(struct vndf_bsdf b, struct vndf_impl_interface n,
-                                                        VNDF_REAL3 o, VNDF_REAL3 i) {
-    struct vndf_impl_diffuse d;
-    VNDF_REAL ior = vndf_impl_bsdf_index(b), dense = ior < VNDF_R(1.0) ? VNDF_R(1.0) / ior : ior,
+// Accuracy of the fit: 1.4e-3 of 1 + q for eta in [1, 4]. An index below 1 counts as its reciprocal: white paint then loses light.
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobe d;
+    struct vndf_impl_interface n = v.media;
+    VNDF_REAL ior = vndf_impl_bsdf_index(v.b), dense = ior < VNDF_R(1.0) ? VNDF_R(1.0) / ior : ior,
               x = dense - VNDF_R(1.0);
     VNDF_REAL q = x * VNDF_FMA(x, VNDF_FMA(x, VNDF_R(0.22263203), VNDF_R(1.27565832)), VNDF_R(2.267723));
-    VNDF_REAL lets_in = vndf_impl_bsdf_lets_in(o.z, n.eta), lets_out = vndf_impl_bsdf_lets_in(i.z, n.eta);
+    VNDF_REAL lets_in = vndf_impl_bsdf_lets_in(v.o.z, n.eta), lets_out = vndf_impl_bsdf_lets_in(i.z, n.eta);
     VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / (dense * dense));
-    d.share = (VNDF_R(1.0) - vndf_impl_bsdf_metal(b)) * (VNDF_R(1.0) - n.transmission) * lets_in;
-    VNDF_REAL red = b.albedo.r / VNDF_FMA(VNDF_R(1.0) - b.albedo.r, q, VNDF_R(1.0));
-    VNDF_REAL green = b.albedo.g / VNDF_FMA(VNDF_R(1.0) - b.albedo.g, q, VNDF_R(1.0));
-    VNDF_REAL blue = b.albedo.b / VNDF_FMA(VNDF_R(1.0) - b.albedo.b, q, VNDF_R(1.0));
+    d.share = (VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b)) * (VNDF_R(1.0) - n.transmission) * lets_in;
+    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, q, VNDF_R(1.0));
+    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, q, VNDF_R(1.0));
+    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, q, VNDF_R(1.0));
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
+    d.pdf = vndf_lambert_pdf_wi(i);
     return d;
 }
 
 #elif VNDF_IMPL_KULLA_CONTY
 
 // Of both parts' light that of one draw.
-VNDF_FN struct vndf_impl_diffuse vndf_impl_bsdf_diffuse(struct vndf_bsdf b, struct vndf_impl_kulla_conty m,
-                                                        VNDF_REAL3 i) {
-    struct vndf_impl_diffuse d;
-    VNDF_REAL metal = vndf_impl_bsdf_metal(b), other = VNDF_R(1.0) - metal;
-    d.share = VNDF_FMA(metal, m.share, other);
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobe d;
+    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), other = VNDF_R(1.0) - metal;
+    d.share = VNDF_FMA(metal, v.multiple.share, other);
     VNDF_REAL rcp = VNDF_R(1.0) / (d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
-    d.weight = vndf_impl_bsdf_multiple(b, m, i);
+    d.weight = vndf_impl_bsdf_multiple(v.b, v.multiple, i);
 #if VNDF_LAMBERT
-    d.weight = vndf_impl_rgb(VNDF_FMA(other, b.albedo.r, d.weight.r), VNDF_FMA(other, b.albedo.g, d.weight.g),
-                             VNDF_FMA(other, b.albedo.b, d.weight.b));
+    d.weight =
+        vndf_impl_rgb(VNDF_FMA(other, v.b.albedo.r, d.weight.r), VNDF_FMA(other, v.b.albedo.g, d.weight.g),
+                      VNDF_FMA(other, v.b.albedo.b, d.weight.b));
 #endif
     d.weight = vndf_impl_rgb_scaled(d.weight, rcp);
+    d.pdf = vndf_lambert_pdf_wi(i);
     return d;
 }
 
 #else
 
-VNDF_FN struct vndf_impl_diffuse vndf_impl_bsdf_diffuse(struct vndf_bsdf b) {
-    struct vndf_impl_diffuse d;
-    d.share = VNDF_R(1.0) - vndf_impl_bsdf_metal(b);
-    d.weight = b.albedo;
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobe d;
+    d.share = VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b);
+    d.weight = v.b.albedo;
+    d.pdf = vndf_lambert_pdf_wi(i);
     return d;
 }
 

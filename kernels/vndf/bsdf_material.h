@@ -8,9 +8,14 @@
 
 VNDF_BEGIN
 
+// What has facets, and what is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
+#define VNDF_IMPL_SPECULAR (VNDF_CONDUCTOR || VNDF_DIELECTRIC)
+#define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
+#define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
+
 // A material at a point. Every member of a reflectance is in [0, 1].
 struct vndf_bsdf {
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
+#if VNDF_IMPL_SPECULAR
     // alpha as everywhere in the library, in [1e-8, 1e3]; alpha_x stands for both without VNDF_ANISOTROPIC.
     VNDF_REAL alpha_x;
 #if VNDF_ANISOTROPIC
@@ -39,6 +44,13 @@ struct vndf_bsdf {
 #endif
 #if VNDF_TINT
     struct vndf_rgb transmittance;  // a factor on what goes through
+#endif
+#if VNDF_DISPERSION
+    VNDF_REAL dispersion;  // 20 over Abbe's number (medium.h); 0: one index for all light
+    int channel;           // whose index counts: 0, red, 1, green, or 2, blue
+#endif
+#if VNDF_ABSORPTION
+    struct vndf_rgb absorption;  // what the body behind absorbs in a unit of length, >= 0
 #endif
 #endif
 #if VNDF_SHADING_NORMAL
@@ -72,47 +84,9 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
 #endif
 }
 
-// What is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
-#define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
-#define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
-
-// A conductor with one normal has the weight 0 below its horizon by itself.
-#define VNDF_IMPL_SIDES (VNDF_IMPL_DIFFUSE || VNDF_SHADING_NORMAL || VNDF_DIELECTRIC)
-
-#if VNDF_IMPL_SIDES
-
-// The part of the light that passes between wo and wi, both turned by `side`: 0 where the rule above forbids it. Of light that
-// crosses the surface, wi is turned around before.
-// Source of the part near the geometric horizon: Chiang, Li & Burley, Taming the Shadow Terminator, 2019: G + G^2 - G^3,
-//     G = min(ng . wi / ((ns . wi) (ns . ng)), 1).
-VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b, VNDF_REAL side) {
-    int above = wo.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
-#if VNDF_SHADING_NORMAL
-    VNDF_REAL x = side * b.ng_x, y = side * b.ng_y, z = b.ng_z;
-    VNDF_REAL height_o = VNDF_FMA(wo.x, x, VNDF_FMA(wo.y, y, wo.z * z));
-    // Made dependent on the other height, so that LLVM's SLP pass does not pack the two; where it is none, above is 0.
-    above = above && height_o > VNDF_R(0.0);
-    VNDF_REAL height_i = VNDF_FMA(wi.x, x, VNDF_FMA(wi.y, y, wi.z * z));
-    above = above && height_i > VNDF_R(0.0);
-#if VNDF_TERMINATOR
-    VNDF_REAL most = wi.z * z;
-    int fading = height_i < most;
-    VNDF_REAL g = fading ? height_i / (fading ? most : VNDF_R(1.0)) : VNDF_R(1.0);
-    VNDF_REAL part = g * VNDF_FMA(g, VNDF_R(1.0) - g, VNDF_R(1.0));
-    return above ? part : VNDF_R(0.0);
-#endif
-#else
-    (void)b;
-    (void)side;
-#endif
-    return above ? VNDF_R(1.0) : VNDF_R(0.0);
-}
-
-#endif
-
 // --- Microfacets ---
 
-#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
+#if VNDF_IMPL_SPECULAR
 
 VNDF_FN VNDF_REAL2 vndf_impl_bsdf_alpha(struct vndf_bsdf b) {
 #if VNDF_ANISOTROPIC

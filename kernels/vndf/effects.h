@@ -21,6 +21,9 @@
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
 //   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument; the code hardly changes
 //   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
+//   VNDF_ABSORPTION      what the body behind a surface absorbs of light on its way through; 0: nothing. vndf_bsdf_transmittance alone
+//                        asks for it
+//   VNDF_DISPERSION      an index for each channel, of which one is asked for at a time; 0: every dispersion is 0
 //   VNDF_BACK_FACING     surfaces with two sides; 0: none is seen from behind, or those are black
 // For renderers whose normals are interpolated or mapped:
 //   VNDF_SHADING_NORMAL  a geometric normal beside the shading one; 0: both are the same
@@ -88,6 +91,12 @@
 #endif
 #ifndef VNDF_TINT
 #define VNDF_TINT 1
+#endif
+#ifndef VNDF_ABSORPTION
+#define VNDF_ABSORPTION 1
+#endif
+#ifndef VNDF_DISPERSION
+#define VNDF_DISPERSION 1
 #endif
 #ifndef VNDF_BACK_FACING
 #define VNDF_BACK_FACING 1
@@ -165,6 +174,18 @@
 #error "clvndf: unknown VNDF_TINT; 0 and 1 are allowed"
 #undef VNDF_TINT
 #define VNDF_TINT 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_ABSORPTION) >= 1
+#else
+#error "clvndf: unknown VNDF_ABSORPTION; 0 and 1 are allowed"
+#undef VNDF_ABSORPTION
+#define VNDF_ABSORPTION 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_DISPERSION) >= 1
+#else
+#error "clvndf: unknown VNDF_DISPERSION; 0 and 1 are allowed"
+#undef VNDF_DISPERSION
+#define VNDF_DISPERSION 1
 #endif
 #if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_BACK_FACING) >= 1
 #else

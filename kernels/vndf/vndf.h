@@ -74,5 +74,6 @@
 #include "fresnel_dielectric.h"
 #include "fresnel_f82.h"
 #include "fresnel_schlick.h"
+#include "medium.h"
 
 #endif

@@ -52,6 +52,7 @@ inline const std::vector<Mutant>& mutants() {
 #include "mutants/impl_slopes.h"
 #include "mutants/impl_stretch.h"
 #include "mutants/impl_world.h"
+#include "mutants/medium.h"
     };
     return all;
 }

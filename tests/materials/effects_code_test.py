@@ -77,7 +77,8 @@ def faults(switches, code):
     facets = conductor or switches.get("DIELECTRIC", 1)
     for effect, marks in effects().items():
         on = switches.get(effect, 1)
-        needs = {"ANISOTROPIC": facets, "TINT": conductor, "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
+        needs = {"ANISOTROPIC": facets, "TINT": conductor, "ABSORPTION": switches.get("DIELECTRIC", 1),
+                 "DISPERSION": switches.get("DIELECTRIC", 1), "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
         for word in marks:
             if word == "lambert" and conductor and switches["ENERGY"] == "kulla_conty":
                 continue  # the cosine law draws for both

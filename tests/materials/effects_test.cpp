@@ -38,6 +38,11 @@ class Inputs {
     }
     const Columns& evaluated() const { return evaluated_; }
     const Columns& sampled() const { return sampled_; }
+    // A way, and the material.
+    Columns travelled() const {
+        Columns all(sampled_.begin() + 5, sampled_.end());
+        return all;
+    }
 
   private:
     using Vector = std::array<float, 3>;
@@ -74,6 +79,10 @@ class Inputs {
         material.push_back(has(off_, "DIELECTRIC") ? 1 : chance(.1) ? 1 : std::exp(any(-.7, 1.1)));
         material.push_back(has(off_, "DIELECTRIC") ? 0 : has(off_, "LAMBERT") ? 1 : part());
         for (int c = 0; c < 3; ++c) material.push_back(has(off_, "TINT") ? 1 : part());
+        material.push_back(has(off_, "DISPERSION") ? 0 : part());
+        material.push_back(std::floor(any(0, 3)));
+        for (int c = 0; c < 3; ++c)
+            material.push_back(has(off_, "ABSORPTION") || has(off_, "DIELECTRIC") ? 0 : part());
         for (const float x : ng) material.push_back(x);
         const double u1 = part(), u2 = part(), u_lobe = part();
         put(evaluated_, {wo[0], wo[1], wo[2], wi[0], wi[1], wi[2]}, material);
@@ -128,6 +137,7 @@ void compare(const BsdfProgram& all, const std::string& choices, const Off& off,
     const Inputs inputs(without(off, choices), items, 1);
     CHECK(different(all.eval_pdf(inputs.evaluated()), program.eval_pdf(inputs.evaluated())) == 0);
     CHECK(different(all.sample(inputs.sampled()), program.sample(inputs.sampled())) == 0);
+    CHECK(different(all.transmittance(inputs.travelled()), program.transmittance(inputs.travelled())) == 0);
 }
 
 std::vector<std::string> all_choices() {
@@ -141,8 +151,8 @@ std::vector<std::string> all_choices() {
     return all;
 }
 
-const Off front_conductor{"DIELECTRIC",  "LAMBERT",        "ANISOTROPIC", "TINT",
-                          "BACK_FACING", "SHADING_NORMAL", "TERMINATOR"};
+const Off front_conductor{"ABSORPTION", "DISPERSION",  "DIELECTRIC",     "LAMBERT",   "ANISOTROPIC",
+                          "TINT",       "BACK_FACING", "SHADING_NORMAL", "TERMINATOR"};
 
 }  // namespace
 
@@ -161,10 +171,15 @@ TEST_CASE("a comparison of bits notices an effect that is called for, and a form
     const BsdfProgram all("");
     const Off none;
     const Inputs inputs(none, 1 << 10, 1);
-    const Columns values = all.eval_pdf(inputs.evaluated()), samples = all.sample(inputs.sampled());
+    const Columns values = all.eval_pdf(inputs.evaluated()), samples = all.sample(inputs.sampled()),
+                  left = all.transmittance(inputs.travelled());
     for (const std::string& effect : effects) {
         CAPTURE(effect);
         const BsdfProgram program(effect + "=0");
+        if (effect == "ABSORPTION") {
+            CHECK(different(left, program.transmittance(inputs.travelled())) > 0);
+            continue;
+        }
         CHECK(different(values, program.eval_pdf(inputs.evaluated())) > 0);
         CHECK(different(samples, program.sample(inputs.sampled())) > 0);
     }

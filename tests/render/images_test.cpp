@@ -122,6 +122,90 @@ TEST_CASE("smooth glass in a white furnace is Fresnel's, and a ball of it is not
     }
 }
 
+// A slab of 2 units between two planes, seen from above.
+render::Scene slab_of(const render::Material& material) {
+    render::Scene scene;
+    scene.name = "slab";
+    const std::uint32_t number = scene.add_material(material);
+    scene.add_square(-500, -500, 500, 500, number);
+    scene.add_square(-500, -500, 500, 500, number);
+    for (std::size_t i = 4; i < 8; ++i) scene.vertices[i].place[1] = -2, scene.vertices[i].normal[1] = -1;
+    for (std::size_t i = 2; i < 4; ++i)
+        std::swap(scene.triangles[i].corners[1], scene.triangles[i].corners[2]);
+    scene.sky = render::constant_sky(1);
+    return scene;
+}
+
+TEST_CASE("a slab absorbs what Beer's law says, pixel by pixel") {
+    render::Material clear = render::glass(1, 0.3f);
+    clear.absorption = {0.1f, 0.5f, 0};
+    render::Scene scene = slab_of(clear);
+    scene.camera = {{0, 10, 0.01f}, {0, 0, 0}, 3};
+    const Rendered r = rendered(scene, 32, 32, 16 * effort());
+    const render::Image image = r.image();
+    double worst = 0;
+    for (unsigned row = 0; row < 32; ++row)
+        for (unsigned column = 0; column < 32; ++column) {
+            // The mean over the pixel, of the way at its 4 x 4 parts.
+            double expected[3] = {};
+            for (int part = 0; part < 16; ++part) {
+                const double x = 1.5 * (2 * (column + (part % 4 + .5) / 4) / 32 - 1),
+                             y = 1.5 * (1 - 2 * (row + (part / 4 + .5) / 4) / 32);
+                for (int c = 0; c < 3; ++c)
+                    expected[c] += std::exp(-2 * clear.absorption[c] * std::sqrt(1 + x * x + y * y)) / 16;
+            }
+            for (int c = 0; c < 3; ++c)
+                worst = std::max(worst, std::abs(image.pixels[3 * (32 * row + column) + c] - expected[c]));
+        }
+    CHECK(worst < 2e-3);
+
+    // Smooth glass: F, and what goes in and out, with any number of reflections between.
+    const double theta = 1, eta = 1.5, f = fresnel(std::cos(theta), eta),
+                 way = 2 / std::sqrt(1 - std::pow(std::sin(theta) / eta, 2));
+    render::Material glass = render::glass(1.5f, 1e-3f);
+    glass.absorption = clear.absorption;
+    Rendered seen = rendered(slab_of(glass), 16, 16, 64 * effort());
+    seen.scene.camera = {
+        {20 * static_cast<float>(std::sin(theta)), 20 * static_cast<float>(std::cos(theta)), 0.013f},
+        {0, 0, 0.013f},
+        1e-3f};
+    seen.settings.max_bounces = 32;
+    const std::array<double, 3> found = means(seen.image());
+    for (int c = 0; c < 3; ++c) {
+        const double left = std::exp(-clear.absorption[c] * way);
+        CHECK(found[c] ==
+              Catch::Approx(f + (1 - f) * (1 - f) * left / (1 - f * left)).epsilon(0).margin(4e-3));
+    }
+}
+
+TEST_CASE("glass with a dispersion is Fresnel's for each channel, and takes no light") {
+    const double theta = 1.1;
+    render::Material glass = render::glass(1.5f, 1e-3f);
+    glass.dispersion = 2;  // Abbe's number 10
+    for (const std::string random : {"sobol", "philox"}) {
+        Rendered r = rendered(floor_of(glass, theta), 32, 32, 256 * effort());
+        r.choices.random = random;
+        r.settings.random = random == "sobol" ? render::Random::sobol : render::Random::philox;
+        const std::array<double, 3> found = means(r.image());
+        // Over the difference of the indices at Fraunhofer's lines C, d, F that is 1 / 10 of eta - 1.
+        const double f2 = std::pow(486.13, -2), c2 = std::pow(656.27, -2), d2 = std::pow(587.56, -2);
+        const double lines[3] = {c2, d2, f2};
+        for (int c = 0; c < 3; ++c) {
+            const double eta = 1.5 + .05 * (lines[c] - d2) / (f2 - c2), f = fresnel(std::cos(theta), eta);
+            CAPTURE(random, c);
+            CHECK(found[c] == Catch::Approx(f + (1 - f) / (eta * eta)).epsilon(0).margin(3e-3));
+        }
+    }
+    render::Scene scene;
+    scene.name = "ball";
+    scene.sky = render::constant_sky(1);
+    scene.add_sphere({0, 0, 0}, 1, 128, glass);
+    scene.camera = {{0, 0.3f, 20}, {0, 0, 0}, 0.08f};
+    Rendered ball = rendered(scene, 24, 24, 64 * effort());
+    ball.settings.max_bounces = 32;
+    for (const double x : means(ball.image())) CHECK(x == Catch::Approx(1).epsilon(0).margin(1e-2));
+}
+
 TEST_CASE("a white ball under smooth plastic reflects what there is") {
     Rendered r = rendered(floor_of(render::plastic({1, 1, 1}, 1e-3f), 0.7), 32, 32, 64 * effort());
     CHECK(mean(r.image()) == Catch::Approx(1).epsilon(0).margin(3e-3));

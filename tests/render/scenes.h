@@ -1,6 +1,7 @@
 // Scenes with known answers, and their images.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -60,6 +61,13 @@ inline double mean(const render::Image& image) {
     double sum = 0;
     for (const float x : image.pixels) sum += x;
     return sum / static_cast<double>(image.pixels.size());
+}
+
+inline std::array<double, 3> means(const render::Image& image) {
+    std::array<double, 3> sums{};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) sums[i % 3] += image.pixels[i];
+    for (double& x : sums) x *= 3 / static_cast<double>(image.pixels.size());
+    return sums;
 }
 
 inline double rms_from(const render::Image& image, double value) {

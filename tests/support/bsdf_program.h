@@ -18,11 +18,34 @@ inline std::size_t items_by_hand() {
 using Columns = std::vector<std::vector<double>>;
 
 // The inputs' names, in the order of kernels/batch/bsdf.cl.
-inline const std::vector<std::string> bsdf_parameters{
-    "alpha_x",         "alpha_y",         "first_r", "first_g", "first_b",      "second_r",
-    "second_g",        "second_b",        "tint_r",  "tint_g",  "tint_b",       "albedo_r",
-    "albedo_g",        "albedo_b",        "metal",   "ior",     "transmission", "transmittance_r",
-    "transmittance_g", "transmittance_b", "ng_x",    "ng_y",    "ng_z"};
+inline const std::vector<std::string> bsdf_parameters{"alpha_x",
+                                                      "alpha_y",
+                                                      "first_r",
+                                                      "first_g",
+                                                      "first_b",
+                                                      "second_r",
+                                                      "second_g",
+                                                      "second_b",
+                                                      "tint_r",
+                                                      "tint_g",
+                                                      "tint_b",
+                                                      "albedo_r",
+                                                      "albedo_g",
+                                                      "albedo_b",
+                                                      "metal",
+                                                      "ior",
+                                                      "transmission",
+                                                      "transmittance_r",
+                                                      "transmittance_g",
+                                                      "transmittance_b",
+                                                      "dispersion",
+                                                      "channel",
+                                                      "absorption_r",
+                                                      "absorption_g",
+                                                      "absorption_b",
+                                                      "ng_x",
+                                                      "ng_y",
+                                                      "ng_z"};
 
 class BsdfProgram {
   public:
@@ -38,6 +61,9 @@ class BsdfProgram {
     Columns eval_pdf(const Columns& in) const { return run("vndf_batch_bsdf_eval_pdf", in, 4); }
     // wo, u1, u2, u_lobe, the material -> wi (3), weight (3), pdf, lobe
     Columns sample(const Columns& in) const { return run("vndf_batch_bsdf_sample", in, 8); }
+
+    // distance, the material -> what is left of each channel
+    Columns transmittance(const Columns& in) const { return run("vndf_batch_bsdf_transmittance", in, 3); }
 
     // Any entry point of the root: one work-item for each row.
     Columns run(const char* name, const Columns& in, std::size_t outputs) const {

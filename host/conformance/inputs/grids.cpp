@@ -20,7 +20,7 @@ bool uses_wo(const Function& function) {
     return uses(function, {"wo_x", "w_x", "cos_theta", "cos_theta_o"});
 }
 bool uses_normal(const Function& function) {
-    return uses(function, {"wm_x", "wi_x", "slope_x", "x", "k", "cos_theta_i", "cos_theta_m"});
+    return uses(function, {"wm_x", "wi_x", "slope_x", "x", "k", "distance", "cos_theta_i", "cos_theta_m"});
 }
 
 // For functions of (wo, wi, eta): every other wi becomes the refracted direction where there is one.

@@ -18,7 +18,8 @@ using Direction = std::array<double, 3>;
 // The directions agree with each other: wm
 // is a normal of the lobe (alpha), wi the reflection of wo about it, slope and x the slopes of wm, w = wo,
 // cos_theta = wo.z; with a world-space n all directions are turned into its frame, whose x axis is t. Cosines are those of the
-// exact directions. k is a size of x; f0 and f90 or tint are the two u.
+// exact directions. k and distance are sizes of x, sigma
+// is alpha; f0 and f90 or tint are the two u, and so are dispersion and wavelength, to scale.
 struct Point {
     Direction wo{0, 0, 1}, n{0, 0, 1}, wm{0, 0, 1}, wi{0, 0, 1}, t{1, 0, 0};
     double cos_theta = 1, cos_theta_i = 1, cos_theta_m = 1;  // about n

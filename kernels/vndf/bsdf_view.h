@@ -1,0 +1,171 @@
+// What wo sees of a material: set up once, for values, densities and samples.
+#ifndef VNDF_BSDF_VIEW_H
+#define VNDF_BSDF_VIEW_H
+
+#include "bsdf_material.h"
+#include "impl/stretch.h"
+#if VNDF_IMPL_SPECULAR
+#include "bsdf_facets.h"
+#endif
+#if VNDF_DIELECTRIC
+#include "bsdf_dielectric.h"
+#endif
+#if VNDF_DIELECTRIC && (VNDF_ABSORPTION || VNDF_DISPERSION)
+#include "medium.h"
+#endif
+#if VNDF_CONDUCTOR && !VNDF_CHOSEN(VNDF_ENERGY, none)
+#include "bsdf_energy.h"
+#endif
+
+VNDF_BEGIN
+
+#if VNDF_DIELECTRIC
+
+// The dielectric as wo sees it.
+struct vndf_impl_interface {
+    VNDF_REAL eta;           // behind over before, seen from wo
+    VNDF_REAL transmission;  // of what gets in
+    int transmits;
+    VNDF_REAL specular;  // the probability of its own two lobes: all but the diffuse one's
+#if !VNDF_IMPL_CHOICE_BY_NORMAL
+    VNDF_REAL expected;  // reflectance, by which the lobe is chosen
+#endif
+};
+VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
+#if VNDF_DISPERSION
+    // Fraunhofer's C, d and F.
+    return vndf_eta_dispersed(
+        b.ior, b.dispersion,
+        b.channel == 1 ? VNDF_R(587.56) : (b.channel == 2 ? VNDF_R(486.13) : VNDF_R(656.27)));
+#else
+    return vndf_impl_min(vndf_impl_max(b.ior, VNDF_R(1e-3)), VNDF_R(1e3));
+#endif
+}
+VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct vndf_bsdf b, VNDF_REAL side) {
+    struct vndf_impl_interface n;
+    VNDF_REAL ior = vndf_impl_bsdf_index(b), metal = vndf_impl_bsdf_metal(b);
+#if VNDF_LAMBERT
+    n.transmission = vndf_impl_share(vndf_impl_max(b.transmission, VNDF_R(0.0)));
+#else
+    n.transmission = VNDF_R(1.0);
+#endif
+    n.transmits = n.transmission > VNDF_R(0.0) && metal < VNDF_R(1.0);
+    n.eta = n.transmits && side < VNDF_R(0.0) ? VNDF_R(1.0) / ior : ior;
+    n.specular = VNDF_R(1.0) - metal;
+#if VNDF_LAMBERT
+    n.specular *= VNDF_FMA(VNDF_R(1.0) - n.transmission, vndf_fresnel_dielectric(o.z, n.eta), n.transmission);
+#else
+    (void)o;
+#endif
+#if !VNDF_IMPL_CHOICE_BY_NORMAL
+    n.expected = vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta);
+#endif
+    return n;
+}
+
+// The probabilities of a reflection by the dielectric, and of a refraction. reflectance: of the facet.
+struct vndf_impl_odds {
+    VNDF_REAL reflected, refracted;
+};
+VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VNDF_REAL reflectance) {
+    struct vndf_impl_odds odds;
+#if VNDF_IMPL_CHOICE_BY_NORMAL
+    VNDF_REAL f = reflectance;
+#else
+    VNDF_REAL f = n.expected;
+    (void)reflectance;
+#endif
+    VNDF_REAL through = (VNDF_R(1.0) - f) * n.transmission;
+#if VNDF_LAMBERT
+    // Of what is neither reflected nor transmitted nobody asks here.
+    VNDF_REAL sum = f + through, rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+    f *= rcp;
+    through *= rcp;
+#endif
+    odds.reflected = n.specular * f;
+    odds.refracted = n.specular * through;
+    return odds;
+}
+
+#endif
+
+struct vndf_impl_bsdf_view {
+    struct vndf_bsdf b;
+    VNDF_REAL side;  // what turns z to the side of wo
+    VNDF_REAL3 o;    // wo on that side
+#if VNDF_IMPL_SPECULAR
+    struct vndf_impl_facets facets;
+#endif
+#if VNDF_DIELECTRIC
+    struct vndf_impl_interface media;
+#endif
+#if VNDF_IMPL_KULLA_CONTY
+    struct vndf_impl_kulla_conty multiple;
+#endif
+};
+VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct vndf_bsdf b) {
+    struct vndf_impl_bsdf_view v;
+    v.b = b;
+    v.side = vndf_impl_bsdf_side(wo, b);
+    v.o = VNDF_MAKE3(wo.x, wo.y, v.side * wo.z);
+#if VNDF_IMPL_SPECULAR
+    v.facets = vndf_impl_facets_of(v.o, vndf_impl_bsdf_alpha(b));
+#endif
+#if VNDF_DIELECTRIC
+    v.media = vndf_impl_interface_of(v.o, b, v.side);
+#endif
+#if VNDF_IMPL_KULLA_CONTY
+    v.multiple = vndf_impl_bsdf_kulla_conty(b, v.o);
+#endif
+    return v;
+}
+
+// The part of the light that passes between wo and wi: 0 where the rule about sides (bsdf.h) forbids it.
+// Source of the part near the geometric horizon: Chiang, Li & Burley, Taming the Shadow Terminator, 2019: G + G^2 - G^3,
+//     G = min(ng . wi / ((ns . wi) (ns . ng)), 1).
+VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(struct vndf_impl_bsdf_view v, VNDF_REAL3 i, int crosses) {
+#if VNDF_IMPL_DIFFUSE || VNDF_SHADING_NORMAL || VNDF_DIELECTRIC
+    // A direction behind is judged by its opposite.
+    VNDF_REAL turn = crosses ? VNDF_R(-1.0) : VNDF_R(1.0);
+    VNDF_REAL3 wi = VNDF_MAKE3(turn * i.x, turn * i.y, turn * i.z);
+    int above = v.o.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
+#if VNDF_SHADING_NORMAL
+    VNDF_REAL x = v.side * v.b.ng_x, y = v.side * v.b.ng_y, z = v.b.ng_z;
+    VNDF_REAL height_o = VNDF_FMA(v.o.x, x, VNDF_FMA(v.o.y, y, v.o.z * z));
+    // Made dependent on the other height, so that LLVM's SLP pass does not pack the two; where it is none, above is 0.
+    above = above && height_o > VNDF_R(0.0);
+    VNDF_REAL height_i = VNDF_FMA(wi.x, x, VNDF_FMA(wi.y, y, wi.z * z));
+    above = above && height_i > VNDF_R(0.0);
+#if VNDF_TERMINATOR
+    VNDF_REAL most = wi.z * z;
+    int fading = height_i < most;
+    VNDF_REAL g = fading ? height_i / (fading ? most : VNDF_R(1.0)) : VNDF_R(1.0);
+    VNDF_REAL part = g * VNDF_FMA(g, VNDF_R(1.0) - g, VNDF_R(1.0));
+    return above ? part : VNDF_R(0.0);
+#endif
+#endif
+    return above ? VNDF_R(1.0) : VNDF_R(0.0);
+#else
+    // A conductor with one normal has the weight 0 below its horizon by itself.
+    (void)v;
+    (void)i;
+    (void)crosses;
+    return VNDF_R(1.0);
+#endif
+}
+
+// A lobe at a pair of directions: BSDF times |cos(theta_i)| over its density and over the probability that it is drawn.
+struct vndf_impl_bsdf_lobe {
+    struct vndf_rgb weight;
+    VNDF_REAL share, pdf;
+};
+
+// A direction that was drawn, and from which lobe. The density is that of the specular lobes' sampler, whichever it is.
+struct vndf_impl_drawn {
+    struct vndf_impl_sample w;
+    int lobe;
+};
+
+VNDF_END
+
+#endif
