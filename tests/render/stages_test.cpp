@@ -41,7 +41,7 @@ std::map<std::string, Remarks> remarks_of_command(const std::string& options) {
 
 // The stages that know materials, with these switches; the others come from the cache.
 std::string surprises_with(const std::string& switches, const Folder& cache) {
-    auto all = remarks_in(remarks_of("renders with the environment's switches",
+    auto all = remarks_in(remarks_of("renders with switches of the environment",
                                      "CLVNDF_REMARKS_SWITCHES='" + switches + "'", cache.string()),
                           "vndf_render_");
     all["surface"], all["connect"], all["scatter"];  // without remarks: not vectorised
@@ -51,7 +51,7 @@ std::string surprises_with(const std::string& switches, const Folder& cache) {
 
 }  // namespace
 
-TEST_CASE("renders with the environment's switches", "[.]") {
+TEST_CASE("renders with switches of the environment", "[.]") {
     const char* switches = std::getenv("CLVNDF_REMARKS_SWITCHES");
     if (!switches) return;  // not the child process of surprises_with()
     const auto stages = render::device_stages(runtime::choose_device().device, runtime::Math::strict,
