@@ -117,6 +117,7 @@ render::Choices choices_of(const Render& r) {
 render::Scene scene_of(const Render& r) {
     render::Scene scene = render::orbs(r.orbs);
     if (r.sky == "white") scene.sky = render::constant_sky(1);
+    if (r.sky == "sunlit") scene.sky.zenith = scene.sky.horizon = scene.sky.ground = {1, 1, 1};
     return scene;
 }
 
@@ -217,8 +218,10 @@ void add_render(CLI::App& app, Common& common) {
     command->add_option("--orbs", r->orbs, "what the orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
         ->capture_default_str();
-    choice("--sky", r->sky, "day: blue, with a sun; white: as bright everywhere, to compare with others",
-           {"day", "white"});
+    choice("--sky", r->sky,
+           "day: blue, with a sun; to compare with others, white: as bright everywhere, and sunlit: white with\n"
+           "the day's sun",
+           {"day", "white", "sunlit"});
     add_device(*command, r->device);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }

@@ -16,12 +16,12 @@ namespace {
 
 Runs runs_of(const std::string& ndf, const std::string& fresnel) {
     Runs runs{
-        {"generate", Runner<vndf_render_generate>::run},    {"traverse", Runner<vndf_render_traverse>::run},
-        {"packets", Runner<vndf_render_packets>::run},      {"leave", Runner<vndf_render_leave>::run},
-        {"lights", Runner<vndf_render_lights>::run},        {"survive", Runner<vndf_render_survive>::run},
-        {"shadow", Runner<vndf_render_shadow>::run},        {"rank", Runner<vndf_render_rank>::run},
-        {"offsets", Runner<vndf_render_offsets>::run},      {"move", Runner<vndf_render_move>::run},
-        {"accumulate", Runner<vndf_render_accumulate>::run}};
+        {"generate", Runner<vndf_render_generate>::run}, {"traverse", Runner<vndf_render_traverse>::run},
+        {"packets", Runner<vndf_render_packets>::run},   {"leave", Runner<vndf_render_leave>::run},
+        {"lights", Runner<vndf_render_lights>::run},     {"survive", Runner<vndf_render_survive>::run},
+        {"shadow", Runner<vndf_render_shadow>::run},     {"count", Runner<vndf_render_count>::run},
+        {"offsets", Runner<vndf_render_offsets>::run},   {"list", Runner<vndf_render_list>::run},
+        {"move", Runner<vndf_render_move>::run},         {"accumulate", Runner<vndf_render_accumulate>::run}};
 #define CLVNDF_TAKE(ndf_, fresnel_) \
     if (ndf == #ndf_ && fresnel == #fresnel_) runs.merge(cpp_materials_##ndf_##_##fresnel_());
     CLVNDF_CPP_MATERIALS(CLVNDF_TAKE)

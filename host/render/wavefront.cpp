@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/tables.h"
 
@@ -37,14 +38,13 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     for (int side = 0; side < 2; ++side) {
         path_[side] = planes(VNDF_PATH_PLANES);
         slot_[side] = planes(1);
+        hit_[side] = planes(VNDF_HIT_PLANES);
+        triangle_[side] = planes(1);
     }
-    hit_ = planes(VNDF_HIT_PLANES);
-    triangle_ = planes(1);
     lights_ = planes(VNDF_LIGHT_PLANES);
     surface_ = planes(VNDF_SURFACE_PLANES);
     material_ = planes(1);
-    alive_ = planes(1);
-    rank_ = planes(1);
+    from_ = planes(1);
     offset_ = planes(1);
     light_ = planes(3);
     film_ = stages_.buffer(std::size_t{VNDF_FILM_PLANES} * film_stride_ * sizeof(float));
@@ -70,46 +70,55 @@ bool Wavefront::add_sample(const std::function<bool()>& stop) {
 }
 
 void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
-    int side = 0;
-    stages_.launch("generate", count, {&view_, word_buffer_, first, stride_, path_[0], slot_[0], light_});
-    for (unsigned bounce = 0; count != 0; ++bounce) {
-        const auto path = path_[side], slot = slot_[side];
+    // Paths from one side to the other: of those traced to those that met something, which come back in their places.
+    auto path = path_[0], slot = slot_[0], moved = path_[1], moved_slot = slot_[1];
+    stages_.launch("generate", count, {&view_, word_buffer_, first, stride_, path, slot, light_});
+    for (unsigned bounce = 0;; ++bounce) {
         const std::uint32_t packet = bounce == 0 ? stages_.packet() : 1;
         stages_.launch(packet > 1 ? "packets" : "traverse", (count + packet - 1) / packet,
-                       {nodes_, leaves_, path, count, stride_, hit_, triangle_});
+                       {nodes_, leaves_, path, count, stride_, hit_[0], triangle_[0]});
         const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce;
         // Behind the last bounce there are no random numbers, and no use for one.
         const std::uint32_t channel_quad = bounce == settings_.max_bounces ? 0 : light_quad;
         if (stages_.media())
-            stages_.launch("media", whole_chunks(count),
-                           {&sizes_, vertices_, triangles_, materials_, hit_, triangle_, word_buffer_,
+            stages_.launch("media", count,
+                           {&sizes_, vertices_, triangles_, materials_, hit_[0], triangle_[0], word_buffer_,
                             channel_quad, slot, first, count, stride_, path});
-        stages_.launch("leave", count, {&sky_, path, triangle_, slot, count, stride_, light_});
+        stages_.launch("leave", count, {&sky_, path, triangle_[0], slot, count, stride_, light_});
         if (bounce == settings_.max_bounces) return;
-        const std::uint32_t bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce,
-                            chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
-        const std::int32_t roulette = bounce >= roulette_from;
-        const std::size_t whole = whole_chunks(count);
-        stages_.launch(
-            "surface", whole,
-            {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
-        stages_.launch("lights", whole,
-                       {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
-        stages_.launch("connect", whole, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
-        stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
-        stages_.launch(
-            "scatter", whole,
-            {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
-        stages_.launch(
-            "survive", whole,
-            {material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path, alive_});
-        stages_.launch("rank", chunks, {alive_, chunks, rank_, offset_});
+        const auto chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
+        stages_.launch("count", chunks, {triangle_[0], count, chunks, offset_});
         stages_.launch("offsets", 1, {chunks, offset_});
-        side = 1 - side;
-        stages_.launch("move", whole,
-                       {path, slot, alive_, rank_, offset_, stride_, path_[side], slot_[side]});
+        stages_.launch("list", chunks, {triangle_[0], count, chunks, stride_, offset_, from_});
         stages_.read(offset_, &count, sizeof count, chunks * sizeof count);
+        if (count == 0) return;
+        stages_.launch("move", count,
+                       {path, slot, hit_[0], triangle_[0], from_, count, stride_, moved, moved_slot, hit_[1],
+                        triangle_[1]});
+        std::swap(path, moved);
+        std::swap(slot, moved_slot);
+        turn(first, count, bounce, path, slot);
     }
+}
+
+// What happens on the surfaces that the paths met.
+void Wavefront::turn(std::uint32_t first, std::uint32_t count, unsigned bounce, Stages::Buffer path,
+                     Stages::Buffer slot) {
+    const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce,
+                        bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce;
+    const std::int32_t roulette = bounce >= roulette_from;
+    stages_.launch(
+        "surface", count,
+        {&sizes_, vertices_, triangles_, hit_[1], triangle_[1], count, stride_, path, surface_, material_});
+    stages_.launch("lights", count,
+                   {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
+    stages_.launch("connect", count, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
+    stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
+    stages_.launch(
+        "scatter", count,
+        {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
+    stages_.launch("survive", count,
+                   {surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path});
 }
 
 Image Wavefront::image() {

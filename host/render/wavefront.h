@@ -19,7 +19,7 @@ struct Settings {
     unsigned max_bounces = 6;  // surfaces that a path may visit
     std::uint64_t seed = 1;
     Random random = Random::sobol;
-    std::size_t queue = std::size_t{1} << 17;  // paths in flight
+    std::size_t queue = std::size_t{1} << 16;  // paths in flight
 };
 
 struct Image {
@@ -44,6 +44,8 @@ class Wavefront {
 
   private:
     void trace(std::uint32_t first, std::uint32_t count);
+    void turn(std::uint32_t first, std::uint32_t count, unsigned bounce, Stages::Buffer path,
+              Stages::Buffer slot);
 
     Stages& stages_;
     Settings settings_;
@@ -55,7 +57,7 @@ class Wavefront {
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
     Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, word_buffer_;
-    Stages::Buffer path_[2], slot_[2], hit_, triangle_, lights_, surface_, material_, alive_, rank_, offset_,
+    Stages::Buffer path_[2], slot_[2], hit_[2], triangle_[2], lights_, surface_, material_, from_, offset_,
         light_, film_;
 };
 

@@ -132,7 +132,7 @@ VNDF_FN void vndf_render_trace_packet(VNDF_RENDER_FROM(float) nodes, VNDF_RENDER
             beam.t = vndf_render_packet_leaf(vndf_render_leaf_at(leaves, child), packet);
         } else {
             VNDF_RENDER_FROM(float) const node = vndf_render_node_at(nodes, child);
-            next = vndf_render_push(&stack, node, vndf_render_beam_boxes(node, beam));
+            next = vndf_render_push(&stack, node, vndf_render_beam_boxes(node, beam), 0);
         }
         child = next == VNDF_NO_CHILD ? vndf_render_pop(&stack, beam.t) : next;
         if (child == VNDF_NO_CHILD) return;

@@ -71,12 +71,12 @@
 #define VNDF_NODE_HIGH_Z 40
 #define VNDF_NODE_CHILD 48
 #define VNDF_NODE_SIZE 64
-// A leaf: the corners of eight triangles, their numbers, and the box around them, 88 floats.
+// A leaf: the corners of eight triangles, their numbers, and the box around them: 96 floats, whole lines of a cache.
 #define VNDF_LEAF_CORNER(k) (24 * (k))
 #define VNDF_LEAF_TRIANGLE 72
 #define VNDF_LEAF_LOW 80
 #define VNDF_LEAF_HIGH 84
-#define VNDF_LEAF_SIZE 88
+#define VNDF_LEAF_SIZE 96
 #define VNDF_TREE_DEPTH 32
 
 // Tables for shading, structures of arrays as well: neighbours in memory LLVM would load as one vector of few, and then not

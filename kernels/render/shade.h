@@ -30,7 +30,7 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
                                              float turn, uint stride, uint i) {
     struct vndf_render_row row;
     row.count = sizes.materials;
-    row.number = number == VNDF_MISS ? 0 : number;
+    row.number = number;
     row.one = sizes.one;
     row.channel = vndf_render_channel(path, stride, i);
     return vndf_render_bsdf_of(materials, row, turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
@@ -72,9 +72,9 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
     const float ratio = vndf_impl_min(value.pdf / vndf_impl_max(light_pdf, 1e-12f), 1e15f);
 #if VNDF_DIELECTRIC
     // Through the surface lights are not sampled, see vndf_render_scatter.
-    const int reached = material[i] != VNDF_MISS && light_pdf > 0.0f && wi.z > 0.0f;
+    const int reached = light_pdf > 0.0f && wi.z > 0.0f;
 #else
-    const int reached = material[i] != VNDF_MISS && light_pdf > 0.0f;
+    const int reached = light_pdf > 0.0f;
 #endif
     const float share = reached ? ratio * vndf_render_mis(ratio) : 0.0f;
     struct vndf_rgb weight = value.weight;

@@ -39,9 +39,8 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
                                        VNDF_RENDER_OUT(float) path, VNDF_RENDER_OUT(float) surface,
                                        VNDF_RENDER_OUT(uint) material) {
     const uint i = VNDF_RENDER_ITEM;
-    // What met nothing gets some surface, and no other stage asks for it.
-    const int met = i < count && triangle[i] != VNDF_MISS;
-    const uint number = met ? triangle[i] : 0;
+    // Items beyond the count get some surface, and no other stage asks for it.
+    const uint number = i < count ? triangle[i] : 0;
 #if VNDF_SHADING_NORMAL
     const uint first = triangles[number], second = triangles[sizes.triangles + number],
                third = triangles[2 * sizes.triangles + number];
@@ -89,7 +88,7 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
 #if VNDF_DIELECTRIC
     surface[VNDF_SURFACE_OFFSET * stride + i] = side * offset;
 #endif
-    material[i] = met ? triangles[VNDF_TRIANGLE_MATERIAL * sizes.triangles + number] : VNDF_MISS;
+    material[i] = triangles[VNDF_TRIANGLE_MATERIAL * sizes.triangles + number];
 }
 
 #endif

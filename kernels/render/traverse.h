@@ -22,8 +22,13 @@ VNDF_RENDER_KERNEL vndf_render_traverse(VNDF_RENDER_IN(float) nodes, VNDF_RENDER
                                         VNDF_RENDER_OUT(float) hit, VNDF_RENDER_OUT(uint) triangle) {
     const uint i = VNDF_RENDER_ITEM;
     if (i >= count) return;
-    vndf_render_store_hit(vndf_render_trace(nodes, leaves, vndf_render_path_ray(path, stride, i), 0), stride,
-                          i, hit, triangle);
+    // A path that carries nothing has ended.
+    const int ended = path[VNDF_PATH_RED * stride + i] == 0.0f &&
+                      path[VNDF_PATH_GREEN * stride + i] == 0.0f && path[VNDF_PATH_BLUE * stride + i] == 0.0f;
+    const struct vndf_render_hit found =
+        ended ? vndf_render_no_hit()
+              : vndf_render_trace(nodes, leaves, vndf_render_path_ray(path, stride, i), 0);
+    vndf_render_store_hit(found, stride, i, hit, triangle);
 }
 
 #if VNDF_PACKET > 1

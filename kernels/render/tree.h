@@ -159,8 +159,9 @@ struct vndf_render_stack {
 // No child has this number.
 #define VNDF_NO_CHILD ((int)0x80000000)
 
-// The nearest of a node's children that are entered; the others wait as they come.
-VNDF_FN int vndf_render_push(struct vndf_render_stack* stack, VNDF_RENDER_FROM(float) node, float8 enter) {
+// The nearest of a node's children that are entered, or any where `any` is not 0; the others wait as they come.
+VNDF_FN int vndf_render_push(struct vndf_render_stack* stack, VNDF_RENDER_FROM(float) node, float8 enter,
+                             int any) {
     ulong lanes = VNDF_RENDER_BYTES(enter >= VNDF_RENDER_8(0.0f));
     if (lanes == 0) return VNDF_NO_CHILD;
     float at[8];
@@ -169,7 +170,8 @@ VNDF_FN int vndf_render_push(struct vndf_render_stack* stack, VNDF_RENDER_FROM(f
     float least = at[lane];
     while ((lanes = vndf_render_lanes_below(lanes, lane)) != 0) {
         lane = vndf_render_last_lane(lanes);
-        const int child = (int)VNDF_RENDER_BITS(node[VNDF_NODE_CHILD + lane]), nearer = at[lane] < least;
+        const int child = (int)VNDF_RENDER_BITS(node[VNDF_NODE_CHILD + lane]),
+                  nearer = !any && at[lane] < least;
         stack->child[stack->size] = nearer ? nearest : child;
         stack->enter[stack->size++] = nearer ? least : at[lane];
         nearest = nearer ? child : nearest;
@@ -201,7 +203,8 @@ VNDF_FN struct vndf_render_hit vndf_render_no_hit(void) {
     return hit;
 }
 
-// The first hit of a ray, or any at all where `any` is not 0.
+// The first hit of a ray, or any at all where `any` is not 0: then the nearest box is no better than another, and mostly the
+// ray's own surroundings.
 VNDF_FN struct vndf_render_hit vndf_render_trace(VNDF_RENDER_FROM(float) nodes,
                                                  VNDF_RENDER_FROM(float) leaves, struct vndf_render_ray ray,
                                                  int any) {
@@ -216,7 +219,7 @@ VNDF_FN struct vndf_render_hit vndf_render_trace(VNDF_RENDER_FROM(float) nodes,
             if (any && hit.triangle != VNDF_MISS) return hit;
         } else {
             VNDF_RENDER_FROM(float) const node = vndf_render_node_at(nodes, child);
-            next = vndf_render_push(&stack, node, vndf_render_boxes(node, ray, hit.t));
+            next = vndf_render_push(&stack, node, vndf_render_boxes(node, ray, hit.t), any);
         }
         child = next == VNDF_NO_CHILD ? vndf_render_pop(&stack, hit.t) : next;
         if (child == VNDF_NO_CHILD) return hit;

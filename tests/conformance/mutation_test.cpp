@@ -1,6 +1,5 @@
 // Seeded mistakes: `clvndf check` notices every one, and every kind of check notices one.
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -12,6 +11,7 @@
 #include "conformance/runs/check.h"
 #include "mutants.h"
 #include "support/catch.h"
+#include "support/shard.h"
 
 using namespace vndf;
 using namespace vndf::conformance;
@@ -53,16 +53,6 @@ std::set<std::string> failed_checks(const Report& report) {
     return names;
 }
 
-// The environment's CLVNDF_SHARD, "2/4" for the second of four parts, counted from 0; without it the whole.
-std::pair<std::size_t, std::size_t> shard_of_mutants() {
-    const char* text = std::getenv("CLVNDF_SHARD");
-    if (!text) return {0, 1};
-    unsigned shard = 0, shards = 0;
-    REQUIRE(std::sscanf(text, "%u/%u", &shard, &shards) == 2);
-    REQUIRE((shard >= 1 && shard <= shards));
-    return {shard - 1, shards};
-}
-
 bool any_begins(const std::set<std::string>& names, const std::string& beginning) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
         return name.compare(0, beginning.size(), beginning) == 0;
@@ -72,8 +62,8 @@ bool any_begins(const std::set<std::string>& names, const std::string& beginning
 }  // namespace
 
 TEST_CASE("check notices every seeded mistake") {
-    const auto [shard, shards] = shard_of_mutants();
-    for (std::size_t i = shard; i < mutants().size(); i += shards) {
+    const auto [part, parts] = shard();
+    for (std::size_t i = part; i < mutants().size(); i += parts) {
         const Mutant& mutant = mutants()[i];
         INFO(mutant.mistake);
         const Report report = check_mutant(static_cast<int>(i) + 1, mutant.only, mutant.real);

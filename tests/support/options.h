@@ -70,7 +70,7 @@ inline const std::map<std::string, Values>& values() {
         {"--cache", {{"a", "a/b"}, {""}}},
         {"--random", {{"sobol", "philox"}, {"", "halton"}}},
         {"--orbs", {{"roughness", "metals"}, {"", "glass of water"}}},
-        {"--sky", {{"day", "white"}, {"", "night"}}},
+        {"--sky", {{"day", "white", "sunlit"}, {"", "night"}}},
         {"--effects", {{"auto", "all", "conductor,lambert"}, {""}}},
         {"--input", {{"-", "a.csv", "a b"}, {""}}},
         {"--output", {{"-", "b.csv"}, {""}}},
