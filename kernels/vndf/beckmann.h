@@ -206,8 +206,9 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wi_lobe(struct vndf_beckmann_lobe lobe, VNDF
 // The density the other way is that of wi's lobe.
 VNDF_FN VNDF_REAL2 vndf_impl_beckmann_pdf_wi_both(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wi) {
     VNDF_REAL3 wo = VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z);
-    return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(lobe, wi),
-                      vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo));
+    VNDF_REAL pdf = vndf_impl_beckmann_pdf_wi(lobe, wi);
+    VNDF_REAL back = vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo);
+    return VNDF_MAKE2(pdf, back);
 }
 
 // The densities of a reflection both ways, as bidirectional methods need them: that of wi seen from wo, and that of wo

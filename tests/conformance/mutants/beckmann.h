@@ -37,9 +37,7 @@
      {"pointwise, maximum"}},
     {"Beckmann: both densities in the other order",
      "beckmann.h",
-     "return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(lobe, wi),\n"
-     "                      vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo));",
-     "return VNDF_MAKE2(vndf_impl_beckmann_pdf_wi(vndf_impl_beckmann_other(lobe, wi), wo),\n"
-     "                      vndf_impl_beckmann_pdf_wi(lobe, wi));",
+     "return VNDF_MAKE2(pdf, back);",
+     "return VNDF_MAKE2(back, pdf);",
      "vndf_beckmann_pdf_wi_both_lobe",
      {"pointwise, maximum"}},
