@@ -262,7 +262,8 @@ class MaterialView {
         const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
         const R mirror =
             model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
-        const R cosine = dot(wo_, h);
+        // For directions that are unit vectors but for rounding: with either the same.
+        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2;
         for (int c = 0; c < 3; ++c) {
             R scale = passing * p_.metal * p_.tint[c] * mirror;
             if (model_.energy == MaterialModel::Energy::turquin)
