@@ -227,13 +227,15 @@ class MaterialView {
         p_.ior = within<R>(p.ior, R(1e-3), 1000);
         inside_ = behind_ && transmits();
         media_ = inside_ ? Interface<R>{p_.ior, 1} : Interface<R>{1, p_.ior};
+        // From the denser side bounded and conic sampling are plain.
+        if (transmits() && media_.there < media_.here) model_.sampling = MaterialModel::Sampling::plain;
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         view_ = view(wo_, p_.alpha_x, p_.alpha_y);
         bound_ = reference::bound(view_, wo_);
         if (model.energy == MaterialModel::Energy::kulla_conty)
             for (int c = 0; c < 3; ++c)
                 average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
-        if (wo_.z > 0 && model.sampling == MaterialModel::Sampling::conic)
+        if (wo_.z > 0 && model_.sampling == MaterialModel::Sampling::conic)
             visible_ = ggx_sigma_visible(view_);
     }
 
