@@ -258,7 +258,7 @@ class MaterialView {
         const R diffuse = p_.metal * diffuse_share(losses);
         value.pdf = (p_.metal - diffuse) * facets_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        value.settled = settled(wi, height_o, height_i);
+        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R fade = ng_.z > 0 ? height_i / (wi.z * ng_.z) : R(1);
         const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
@@ -303,10 +303,7 @@ class MaterialView {
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
         value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition();
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        // Between opposite directions no facet is told from another.
-        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
-        const bool opposite = dot(sum, sum) < squared(256 * unit());
-        value.settled = settled(wi, height_o, height_i) && !opposite;
+        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R passing = part(wi, height_i);
         const R mirror =
@@ -428,6 +425,11 @@ class MaterialView {
         if (model_.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
         const Margin<R> margin = eto_margin(wo_, wi, view_, bound_);
         return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
+    }
+    // Between opposite directions no facet is told from another.
+    bool opposite(const Vec3<R>& wi) const {
+        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
+        return dot(sum, sum) < squared(256 * unit());
     }
     bool level(const R& height) const { return std::abs(height) < 8 * unit(); }
     R unit() const { return precision_ == Precision::f32 ? R(0x1p-24) : R(0x1p-53); }
