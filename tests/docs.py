@@ -27,6 +27,7 @@ INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
+REFRACTION = ROOT / "bench/results/refraction.json"
 MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
 
@@ -301,6 +302,13 @@ def mitsuba_bsdf():
         yield f"{bsdf}, {ndf}", quantity, *map(worst, ("between", "ours", "theirs", "theirs_with_exact_g1"))
 
 
+def refraction():
+    for row in json.loads(REFRACTION.read_text("utf-8"))["rows"]:
+        if row["index"] == 1.5:
+            yield (", ".join(map(str, row["alpha"])), str(row["angle"]), f"{row['all_reflected']:.2f}",
+                   *(", ".join(f"{row[light][way]:.2g}" for way in ("after", "before", "cone")) for light in ("white", "smooth")))
+
+
 STREAM, CACHED, COMPUTE, PUBLISHED = (
     ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
@@ -329,6 +337,8 @@ TABLES = {
     "embree_peer": lambda build: table(["triangles", *RAYS], embree_peer()),
     "mitsuba_render": lambda build: table(["measure", "white sky", "and a sun"], mitsuba_render()),
     "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
+    "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
+                                       "smooth: after, before, cone"], refraction()),
     "peer_densities": lambda build: peer_errors(peer_densities),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),

@@ -227,13 +227,15 @@ class MaterialView {
         p_.ior = within<R>(p.ior, R(1e-3), 1000);
         inside_ = behind_ && transmits();
         media_ = inside_ ? Interface<R>{p_.ior, 1} : Interface<R>{1, p_.ior};
+        // From the denser side bounded and conic sampling are plain.
+        if (transmits() && media_.there < media_.here) model_.sampling = MaterialModel::Sampling::plain;
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         view_ = view(wo_, p_.alpha_x, p_.alpha_y);
         bound_ = reference::bound(view_, wo_);
         if (model.energy == MaterialModel::Energy::kulla_conty)
             for (int c = 0; c < 3; ++c)
                 average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
-        if (wo_.z > 0 && model.sampling == MaterialModel::Sampling::conic)
+        if (wo_.z > 0 && model_.sampling == MaterialModel::Sampling::conic)
             visible_ = ggx_sigma_visible(view_);
     }
 
@@ -256,13 +258,14 @@ class MaterialView {
         const R diffuse = p_.metal * diffuse_share(losses);
         value.pdf = (p_.metal - diffuse) * facets_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        value.settled = settled(wi, height_o, height_i);
+        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R fade = ng_.z > 0 ? height_i / (wi.z * ng_.z) : R(1);
         const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
         const R mirror =
             model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
-        const R cosine = dot(wo_, h);
+        // For directions that are unit vectors but for rounding: with either the same.
+        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2;
         for (int c = 0; c < 3; ++c) {
             R scale = passing * p_.metal * p_.tint[c] * mirror;
             if (model_.energy == MaterialModel::Energy::turquin)
@@ -300,10 +303,7 @@ class MaterialView {
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
         value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition();
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        // Between opposite directions no facet is told from another.
-        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
-        const bool opposite = dot(sum, sum) < squared(256 * unit());
-        value.settled = settled(wi, height_o, height_i) && !opposite;
+        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R passing = part(wi, height_i);
         const R mirror =
@@ -425,6 +425,11 @@ class MaterialView {
         if (model_.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
         const Margin<R> margin = eto_margin(wo_, wi, view_, bound_);
         return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
+    }
+    // Between opposite directions no facet is told from another.
+    bool opposite(const Vec3<R>& wi) const {
+        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
+        return dot(sum, sum) < squared(256 * unit());
     }
     bool level(const R& height) const { return std::abs(height) < 8 * unit(); }
     R unit() const { return precision_ == Precision::f32 ? R(0x1p-24) : R(0x1p-53); }

@@ -5,7 +5,8 @@
 //
 // Source: Walter, Marschner, Li & Torrance, Microfacet Models for Refraction through Rough Surfaces, 2007, Equations 16, 17
 //     and 21, eta_i = 1 and eta_o = eta for the direction that is known (i there, wo here); visible normals for their
-//     sampling, and with them their separable G: of a refraction the weight is (1 - F) G1(wi).
+//     sampling, and with them their separable G: of a refraction the weight is (1 - F) G1(wi). (The height-correlated one of
+//     refractions is the Beta function B(1 + Lambda(wo), 1 + Lambda(wi)).)
 #ifndef VNDF_BSDF_DIELECTRIC_H
 #define VNDF_BSDF_DIELECTRIC_H
 

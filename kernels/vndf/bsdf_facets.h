@@ -76,6 +76,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_facets_sample(struct vndf_impl_facets 
 }
 
 #if VNDF_DIELECTRIC
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_plain(struct vndf_impl_facets c, int plain) {
+    (void)plain;
+    return c;
+}
+
 VNDF_FN VNDF_REAL vndf_impl_facets_either_pdf(struct vndf_impl_facets c, struct vndf_impl_facing f,
                                               VNDF_REAL3 wi) {
     VNDF_REAL weight = f.crosses ? VNDF_R(0.25) * f.spread : VNDF_R(0.25);
@@ -106,6 +111,7 @@ struct vndf_impl_facets {
     struct vndf_impl_bound bound;
 #elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
     struct vndf_ggx_conic2026 conic;
+    int plain;  // visible normals mirrored instead
 #endif
 };
 VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
@@ -115,6 +121,7 @@ VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 al
     c.bound = vndf_impl_ggx_bound(c.lobe);
 #elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
     c.conic = vndf_ggx_conic2026_lobe(wo, alpha);
+    c.plain = 0;
 #endif
     return c;
 }
@@ -171,13 +178,24 @@ VNDF_FN struct vndf_impl_sample vndf_impl_facets_sample(struct vndf_impl_facets 
 }
 
 #if VNDF_DIELECTRIC
+// The same, but if `plain` with visible normals mirrored, whatever VNDF_SAMPLING.
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_plain(struct vndf_impl_facets c, int plain) {
+#if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
+    c.bound.gap_z = plain ? VNDF_R(0.0) : c.bound.gap_z;
+    c.bound.height = plain ? c.lobe.axis.height : c.bound.height;
+#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+    c.conic.twice_sigma = plain ? vndf_impl_lobe_twice_sigma(c.lobe) : c.conic.twice_sigma;
+    c.plain = plain;
+#else
+    (void)plain;
+#endif
+    return c;
+}
+
 // The plain cap, which is the one without a gap, or the one for reflections.
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
 VNDF_FN struct vndf_impl_bound vndf_impl_facets_cap(struct vndf_impl_facets c, int mirrors) {
-    struct vndf_impl_bound cap = c.bound;
-    cap.gap_z = mirrors ? cap.gap_z : VNDF_R(0.0);
-    cap.height = mirrors ? cap.height : c.lobe.axis.height;
-    return cap;
+    return vndf_impl_facets_plain(c, !mirrors).bound;
 }
 #endif
 
@@ -232,7 +250,13 @@ VNDF_FN struct vndf_impl_facets_pair vndf_impl_facets_both(struct vndf_impl_face
     both.mirrored = vndf_impl_lobe_reflection(c.lobe, cap.height, h);
 #elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
     struct vndf_impl_vector h = vndf_impl_cap_half(c.lobe, u);
-    both.mirrored = vndf_impl_conic2026(c.conic, u);
+    struct vndf_impl_conic_normal g = vndf_impl_conic_sampled(c.conic, u);
+    g.x = c.plain ? h.x : g.x;
+    g.y = c.plain ? h.y : g.y;
+    g.z = c.plain ? h.z : g.z;
+    both.mirrored =
+        vndf_impl_conic_reflect(g, c.lobe.wo_x, c.lobe.wo_y, c.lobe.wo_z, c.lobe.alpha_x, c.lobe.alpha_y,
+                                c.conic.twice_sigma, !c.plain && c.lobe.wo_z > VNDF_R(0.0));
     (void)mirrors;
 #else
     struct vndf_impl_vector h = vndf_impl_cap_half(c.lobe, u);

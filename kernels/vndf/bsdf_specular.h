@@ -110,16 +110,14 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bs
                                                              VNDF_REAL u_lobe) {
     struct vndf_impl_drawn d;
     struct vndf_impl_interface n = v.media;
-    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), f = VNDF_R(0.0);
-#if VNDF_IMPL_CHOICE_BY_NORMAL
-    struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, 1);
-    f = vndf_fresnel_dielectric(
+    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b);
+    // Before the normal, where that does not decide.
+    int early = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, VNDF_R(0.0)), metal, u_lobe);
+    struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, early != VNDF_BSDF_TRANSMISSION);
+    VNDF_REAL f = vndf_fresnel_dielectric(
         VNDF_FMA(v.o.x, both.normal.x, VNDF_FMA(v.o.y, both.normal.y, v.o.z * both.normal.z)), n.eta);
-    d.lobe = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, f), metal, u_lobe);
-#else
-    d.lobe = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, f), metal, u_lobe);
-    struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, d.lobe != VNDF_BSDF_TRANSMISSION);
-#endif
+    int late = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, f), metal, u_lobe);
+    d.lobe = n.by_normal ? late : early;
     struct vndf_impl_sample refracted = vndf_impl_refracted(v.o, both.normal, n.eta);
     int crosses = d.lobe == VNDF_BSDF_TRANSMISSION;
     d.w.x = crosses ? refracted.x : both.mirrored.x;

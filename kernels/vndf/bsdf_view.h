@@ -27,8 +27,9 @@ struct vndf_impl_interface {
     VNDF_REAL transmission;  // of what gets in
     int transmits;
     VNDF_REAL specular;  // the probability of its own two lobes: all but the diffuse one's
+    int by_normal;  // the lobe is chosen by the reflectance of the normal that was drawn, or before by the expected one
 #if !VNDF_IMPL_CHOICE_BY_NORMAL
-    VNDF_REAL expected;  // reflectance, by which the lobe is chosen
+    VNDF_REAL expected;
 #endif
 };
 VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
@@ -57,6 +58,9 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
 #else
     (void)o;
 #endif
+    // From the denser side many normals reflect all there is, and which do decides nearly everything: a choice before the normal
+    // would leave the few that transmit, or reflect in part, samples that weigh much.
+    n.by_normal = VNDF_IMPL_CHOICE_BY_NORMAL || (n.transmits && n.eta < VNDF_R(1.0));
 #if !VNDF_IMPL_CHOICE_BY_NORMAL
     n.expected = vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta);
 #endif
@@ -72,8 +76,7 @@ VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VN
 #if VNDF_IMPL_CHOICE_BY_NORMAL
     VNDF_REAL f = reflectance;
 #else
-    VNDF_REAL f = n.expected;
-    (void)reflectance;
+    VNDF_REAL f = n.by_normal ? reflectance : n.expected;
 #endif
     VNDF_REAL through = (VNDF_R(1.0) - f) * n.transmission;
 #if VNDF_LAMBERT
@@ -113,6 +116,7 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
 #endif
 #if VNDF_DIELECTRIC
     v.media = vndf_impl_interface_of(v.o, b, v.side);
+    v.facets = vndf_impl_facets_plain(v.facets, v.media.by_normal);
 #endif
 #if VNDF_IMPL_KULLA_CONTY
     v.multiple = vndf_impl_bsdf_kulla_conty(b, v.o);

@@ -4,7 +4,8 @@
 // A choice is one of several models and changes results:
 //   VNDF_NDF       ggx (default), beckmann
 //   VNDF_SAMPLING  how specular reflections are drawn: plain, visible normals mirrored; bounded (default), from the
-//                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h. Beckmann has plain alone.
+//                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h. From the denser side of a
+//                  body all are as plain. Beckmann has plain alone
 //   VNDF_FRESNEL   of the conductor: none, it reflects everything; conductor, eta and k; schlick (default), f0 and f90; f82,
 //                  f0 and the tint at 82 degrees
 //   VNDF_MASKING   of reflections: correlated (default), separable. Of refractions always separable

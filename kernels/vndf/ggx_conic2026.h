@@ -80,16 +80,16 @@ VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_
 }
 
 // The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as
-// given.
+// given. above: whether it is known to be above the surface.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
                                                         VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
-                                                        VNDF_REAL alpha_y, VNDF_REAL n) {
+                                                        VNDF_REAL alpha_y, VNDF_REAL n, int above) {
     struct vndf_impl_sample o;
     struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, h.x, h.y, h.z, alpha_x, alpha_y);
     // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored
     // there, which keeps the length, and never 0.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON);
-    VNDF_REAL z = wo_z > VNDF_R(0.0) ? height : m.z;
+    VNDF_REAL z = above ? height : m.z;
     // Only the direction of wo counts: the length that the mirror kept is divided out.
     VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
     o.x = m.x * rcp;
@@ -241,7 +241,7 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     return h;
 }
 
-VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_sampled(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
     int above = l.wo_z > VNDF_R(0.0);
     VNDF_REAL spread = above ? l.spread : vndf_impl_conic_cap_spread(l.cap, d.rest);
@@ -253,7 +253,11 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l,
     h.x = above ? front.x : h.x;
     h.y = above ? front.y : h.y;
     h.z = above ? front.z : h.z;
-    return vndf_impl_conic_reflect(h, l.wo_x, l.wo_y, l.wo_z, l.alpha_x, l.alpha_y, l.twice_sigma);
+    return h;
+}
+VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
+    return vndf_impl_conic_reflect(vndf_impl_conic_sampled(l, u), l.wo_x, l.wo_y, l.wo_z, l.alpha_x,
+                                   l.alpha_y, l.twice_sigma, l.wo_z > VNDF_R(0.0));
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_conic2026, for many u and one wo and alpha.
@@ -467,7 +471,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     m.z = above ? VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0)) : m.z;
     VNDF_REAL visible = VNDF_R(2.0) * back / (g1 * unit);  // sqrt(poles) is no root here
     return vndf_impl_conic_reflect(vndf_impl_conic_turn(m, x, y), wo.x, wo.y, wo.z, alpha_x, alpha_y,
-                                   above ? visible : cap.p);
+                                   above ? visible : cap.p, wo.z > VNDF_R(0.0));
 }
 
 // A reflection of wo above the horizon for alpha_x = alpha_y: the same map as vndf_ggx_sample_wi_conic2026, less work.

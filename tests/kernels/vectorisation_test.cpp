@@ -148,7 +148,9 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
           "conductor,dielectric,transport=importance", "dielectric,lambert,ndf=beckmann",
           "all,fresnel=conductor,masking=separable", "all,sampling=conic,fresnel=f82",
           "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin",
-          "all,energy=kulla_conty,fresnel=conductor"})
+          "all,energy=kulla_conty,fresnel=conductor", "all,energy=kulla_conty,sampling=conic",
+          "all,energy=kulla_conty,sampling=conic,fresnel=conductor",
+          "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82"})
         CHECK(not_vectorised_with(parse_effects(list)) == "");
 }
 
