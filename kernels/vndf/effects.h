@@ -19,7 +19,8 @@
 //   VNDF_CONDUCTOR       the rough conductor; 0: every material has metal = 0
 //   VNDF_DIELECTRIC      the rough dielectric; 0: every material with metal < 1 has ior = 1 and transmission = 0
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
-//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument; the code hardly changes
+//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument, a number of each material that a
+//                        renderer keeps and reads, and two instructions: no time that could be told from noise
 //   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
 //   VNDF_BACK_FACING     surfaces with two sides; 0: none is seen from behind, or those are black
 // For renderers whose normals are interpolated or mapped:
