@@ -6,7 +6,9 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "bench/sources.h"
 #include "effects.h"
 #include "runtime/program.h"
 #include "splitmix64.h"
@@ -21,25 +23,34 @@ constexpr std::size_t groups = 13, items = groups * runtime::group_size, launche
 constexpr std::size_t inputs = 29, outputs = 8;
 
 EffectCost cost_of(const std::string& program, const std::string& list) {
-    return {program, parse_effects(list).macros()};
+    EffectCost cost;
+    cost.program = program;
+    cost.macros = parse_effects(list).macros();
+    return cost;
 }
 
-std::vector<EffectCost> programs() {
-    std::vector<EffectCost> all{cost_of("all", "all")};
-    std::vector<std::string> names;
-    for (const Effect& effect : effects()) names.push_back(effect.name);
-    for (const std::string& off : names) {
-        std::string list;
-        for (const std::string& name : names)
-            if (name != off) list += (list.empty() ? "" : ",") + name;
-        all.push_back(cost_of("all without " + off, list));
-    }
-    all.push_back(cost_of("conductor alone", "conductor"));
-    for (const std::string& name : names)
-        if (name != "conductor") all.push_back(cost_of("conductor and " + name, "conductor," + name));
-    all.push_back(cost_of("glass: dielectric and back_facing", "dielectric,back_facing"));
-    all.push_back(cost_of("the same, sampling plain", "dielectric,back_facing,sampling=plain"));
-    return all;
+EffectCounts counts_of(const nlohmann::json& entry) {
+    return {entry.at("llvm"), entry.value("sm_80_slots", 0), entry.value("sm_80_registers", 0)};
+}
+
+nlohmann::ordered_json json_of(const EffectCounts& counts) {
+    nlohmann::ordered_json json;
+    if (counts.llvm != 0) json["llvm"] = counts.llvm;
+    if (counts.sm_80_slots != 0)
+        json["sm_80_slots"] = counts.sm_80_slots, json["sm_80_registers"] = counts.sm_80_registers;
+    return json;
+}
+
+void add_counts(std::vector<EffectCost>& costs) {
+    const auto& files = sources();
+    const auto file = std::ranges::find(files, "bench/results/effects.json", &runtime::SourceFile::path);
+    const nlohmann::json counted = nlohmann::json::parse(file->text);
+    for (const nlohmann::json& entry : counted.at("entries"))
+        for (EffectCost& cost : costs)
+            if (cost.program == entry.at("program")) {
+                cost.sample = counts_of(entry.at("sample"));
+                cost.eval_pdf = counts_of(entry.at("eval_pdf"));
+            }
 }
 
 double seconds_since(Clock::time_point start) {
@@ -77,9 +88,32 @@ double nanoseconds(const Running& running, const cl::Kernel& kernel) {
 
 }  // namespace
 
+std::vector<EffectCost> effect_programs() {
+    std::vector<EffectCost> all{cost_of("all", "all")};
+    std::vector<std::string> names;
+    for (const Effect& effect : effects()) names.push_back(effect.name);
+    for (const std::string& off : names) {
+        std::string list;
+        for (const std::string& name : names)
+            if (name != off) list += (list.empty() ? "" : ",") + name;
+        all.push_back(cost_of("all without " + off, list));
+    }
+    all.push_back(cost_of("conductor alone", "conductor"));
+    for (const std::string& name : names)
+        if (name != "conductor") all.push_back(cost_of("conductor and " + name, "conductor," + name));
+    all.push_back(cost_of("glass: dielectric and back_facing", "dielectric,back_facing"));
+    all.push_back(cost_of("the same, sampling plain", "dielectric,back_facing,sampling=plain"));
+    for (const EffectChoice& choice : effect_choices())
+        for (std::size_t i = 1; i < choice.values.size(); ++i)
+            all.push_back(cost_of(fmt::format("conductor alone, {} {}", choice.name, choice.values[i]),
+                                  fmt::format("conductor,{}={}", choice.name, choice.values[i])));
+    add_counts(all);
+    return all;
+}
+
 std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetitions,
                                      const std::function<void(double done)>& progress) {
-    std::vector<EffectCost> costs = programs();
+    std::vector<EffectCost> costs = effect_programs();
     std::vector<Running> all;
     std::vector<cl::Buffer> buffers;
     for (EffectCost& cost : costs) {
@@ -120,6 +154,21 @@ std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetiti
         progress(.5 + .5 * (repetition + 1) / repetitions);
     }
     return costs;
+}
+
+std::string effects_json(const std::vector<EffectCost>& costs,
+                         const std::vector<std::pair<std::string, std::string>>& context) {
+    nlohmann::ordered_json data;
+    for (const auto& [name, value] : context) data["context"][name] = value;
+    for (const EffectCost& cost : costs)
+        data["effects"].push_back({{"program", cost.program},
+                                   {"switches", cost.macros},
+                                   {"sample_ns", cost.sample_ns},
+                                   {"eval_pdf_ns", cost.eval_pdf_ns},
+                                   {"build_s", cost.build_s},
+                                   {"sample", json_of(cost.sample)},
+                                   {"eval_pdf", json_of(cost.eval_pdf)}});
+    return data.dump(1) + '\n';
 }
 
 }  // namespace vndf::bench

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Counts what each effect of a material costs: LLVM's instructions, and on sm_80 slots and registers. Needs no GPU.
 
-    python3 bench/effects.py [--check]
+    python3 bench/effects.py >bench/results/effects.json
+    python3 bench/effects.py --minimal
 
-Prints a table: everything on, each effect off, the smallest program, each effect added to it, each choice. The smallest
-program is compared with bench/effects/minimal.cl, the same formulas without switches: --check fails where it has more than
-2 % more instructions, or where that would not be noticed of a program with one effect too many. Needs clang; sm_80 CUDA's ptxas and libdevice, and is left out without. Exit status 77 without clang.
+Everything on, each effect off, the smallest program, each effect added to it, each choice; clvndf bench --effects prints the
+counts beside the times. --minimal compares the smallest program with bench/effects/minimal.cl, the same formulas without
+switches, and fails where it has more than 2 % more instructions, or where that would not be noticed of a program with one effect
+too many. Needs clang; sm_80 CUDA's ptxas and libdevice, and is left out without. Exit status 77 without clang.
 """
+import json
 import pathlib
 import re
 import shutil
@@ -18,6 +21,7 @@ import instructions  # noqa: E402
 
 ROOT = instructions.ROOT
 LIMIT = 1.02
+KERNELS = ("sample", "eval_pdf")
 
 
 def entries(kind):
@@ -64,35 +68,57 @@ def llvm(clang, text):
 
 def sm_80(clang, text):
     try:
-        return {name: f"{slots}, {registers}" for name, slots, registers, _ in
+        return {name: (slots, registers) for name, slots, registers, _ in
                 instructions.cuda_kernels(clang, "sm_80", "fast", text)}
     except (OSError, subprocess.CalledProcessError):
         return {}
 
 
-def main():
+def counts(clang, switches):
+    """Of both entry points of a program."""
+    instructions_, slots = llvm(clang, code(switches)), sm_80(clang, code(switches))
+    result = {}
+    for kernel in KERNELS:
+        name = f"vndf_batch_bsdf_{kernel}"
+        result[kernel] = {"llvm": instructions_[name]}
+        if slots:
+            result[kernel].update(zip(("sm_80_slots", "sm_80_registers"), slots[name]))
+    return result
+
+
+def compilers(clang):
+    found = [instructions.output(clang, "--version").split("\n")[0]]
+    if sm_80(clang, code(dict(variants())["conductor alone"])):
+        found.append("ptxas " + re.search(r"V[\d.]+", instructions.output(instructions.CUDA / "bin/ptxas", "--version"))[0])
+    return found
+
+
+def newest_clang():
     clang = next(filter(shutil.which, (f"clang-{version}" for version in range(21, 13, -1))), "clang")
     if not shutil.which(clang):
-        print("no clang")
+        print("no clang", file=sys.stderr)
         sys.exit(77)
-    kernels = ("sample", "eval_pdf")
-    by_hand = '#include "bench/effects/minimal.cl"\n'
-    minimal = {name.replace("minimal", "bsdf"): count for name, count in llvm(clang, by_hand).items()}
-    if "--check" in sys.argv:
-        def ratios(program):
-            counts = llvm(clang, code(dict(variants())[program]))
-            return [counts[f"vndf_batch_bsdf_{kernel}"] / minimal[f"vndf_batch_bsdf_{kernel}"] for kernel in kernels]
-        small, more = ratios("conductor alone"), ratios("conductor and shading_normal")
-        print("smallest program over the one by hand: sample {:.3f}, eval_pdf {:.3f}".format(*small))
-        print("with one effect that is not called for: sample {:.3f}, eval_pdf {:.3f}".format(*more))
-        sys.exit(max(small) > LIMIT or min(more) <= LIMIT)
-    print(f"{'program':42} {'LLVM sample, eval_pdf':>22} {'sm_80 sample':>14} {'sm_80 eval_pdf':>16}")
-    for name, switches in [*variants(), ("by hand", None)]:
-        text = by_hand if switches is None else code(switches)
-        counts, slots = llvm(clang, text), sm_80(clang, text)
-        own = "minimal" if switches is None else "bsdf"
-        sample, value = (f"vndf_batch_{own}_{kernel}" for kernel in kernels)
-        print(f"{name:42} {counts[sample]:13}, {counts[value]:7} {slots.get(sample, '-'):>14} {slots.get(value, '-'):>16}")
+    return clang
+
+
+def minimal(clang):
+    by_hand = llvm(clang, '#include "bench/effects/minimal.cl"\n')
+
+    def ratios(program):
+        counted = llvm(clang, code(dict(variants())[program]))
+        return [counted[f"vndf_batch_bsdf_{kernel}"] / by_hand[f"vndf_batch_minimal_{kernel}"] for kernel in KERNELS]
+    small, more = ratios("conductor alone"), ratios("conductor and shading_normal")
+    print("smallest program over the one by hand: sample {:.3f}, eval_pdf {:.3f}".format(*small))
+    print("with one effect that is not called for: sample {:.3f}, eval_pdf {:.3f}".format(*more))
+    return max(small) > LIMIT or min(more) <= LIMIT
+
+
+def main():
+    clang = newest_clang()
+    if "--minimal" in sys.argv:
+        sys.exit(minimal(clang))
+    lines = ",\n".join("    " + json.dumps({"program": name, **counts(clang, switches)}) for name, switches in variants())
+    print(f'{{\n  "compilers": {json.dumps(compilers(clang))},\n  "entries": [\n{lines}\n  ]\n}}')
 
 
 if __name__ == "__main__":

@@ -257,9 +257,28 @@ std::vector<std::pair<std::string, std::string>> context(const runtime::Device& 
             {"clvndf_version", CLVNDF_VERSION}};
 }
 
+// "940, 1189, 79"
+std::string in_words(const bench::EffectCounts& counts) {
+    const auto number = [](int n) { return n == 0 ? std::string("-") : std::to_string(n); };
+    return fmt::format("{:>5}, {:>5}, {:>3}", number(counts.llvm), number(counts.sm_80_slots),
+                       number(counts.sm_80_registers));
+}
+
+void print_effects(const std::vector<bench::EffectCost>& costs) {
+    put("{:40}{:>8}{:>19}{:>10}{:>19}{:>9}\n", "", "sample,", "LLVM, sm_80 slots,", "eval_pdf,",
+        "LLVM, slots,", "build,");
+    put("{:40}{:>8}{:>19}{:>10}{:>19}{:>9}\n", "program", "ns", "registers", "ns", "registers", "s");
+    for (const bench::EffectCost& cost : costs)
+        put("{:40}{:8.2f}{:>19}{:10.2f}{:>19}{:9.2f}\n", cost.program, cost.sample_ns, in_words(cost.sample),
+            cost.eval_pdf_ns, in_words(cost.eval_pdf), cost.build_s);
+}
+
 // What each effect of a material costs, as a table.
 void run_effects(const Bench& options, Common& common) {
-    require_output();
+    const bool table = !is_standard_output(options.json);
+    if (table) require_output();
+    std::optional<OutputFile> json;
+    if (!options.json.empty()) json.emplace(options.json);
     const FreshCaches caches;
     Target target;
     target.device = options.device;
@@ -269,10 +288,13 @@ void run_effects(const Bench& options, Common& common) {
         bench::effect_costs(device, options.repetitions == 0 ? 15 : options.repetitions,
                             [&](double done) { progress("building and measuring", done); });
     progress.clear();
-    put("{:32} {:>10} {:>12} {:>8}\n", "program", "sample ns", "eval_pdf ns", "build s");
-    for (const bench::EffectCost& cost : costs)
-        put("{:32} {:10.2f} {:12.2f} {:8.2f}\n", cost.program, cost.sample_ns, cost.eval_pdf_ns,
-            cost.build_s);
+    if (table) print_effects(costs);
+    if (!json) return;
+    json->write(bench::effects_json(costs, {{"device", device.label()},
+                                            {"platform_version", device.platform_version},
+                                            {"driver_version", device.driver},
+                                            {"clvndf_version", CLVNDF_VERSION}}));
+    json->commit();
 }
 
 void run_bench(Bench options, Common& common) {
@@ -368,15 +390,22 @@ void add_bench(CLI::App& app, Common& common) {
             "--alpha", [options](const std::string& text) { options->alpha = parse_alpha(text); },
             "range of roughness that is measured (default 0.001:1)")
         ->type_name("LO:HI");
-    command->add_flag("--effects", options->effects, "what each effect of a material costs, and nothing else")
-        ->excludes(quick)
-        ->excludes(advise);
-    command->add_option("--json", options->json, "write Google Benchmark's JSON (- for standard output)");
+    CLI::Option* effects = command
+                               ->add_flag("--effects", options->effects,
+                                          "what each effect of a material costs, and nothing else: "
+                                          "nanoseconds, and what was counted of\n"
+                                          "LLVM's instructions and of slots and registers on sm_80")
+                               ->excludes(quick)
+                               ->excludes(advise);
+    command->add_option("--json", options->json,
+                        "write Google Benchmark's JSON, of --effects its table (- for standard output)");
     command
         ->add_option("--report", options->report,
                      "make FOLDER/index.html, a page with plots, beside FOLDER/bench.json")
-        ->type_name("FOLDER");
-    command->add_option("--compare", options->compare, "show times relative to those of this JSON file");
+        ->type_name("FOLDER")
+        ->excludes(effects);
+    command->add_option("--compare", options->compare, "show times relative to those of this JSON file")
+        ->excludes(effects);
     command->callback([options, &common] {
         common.action = [options, &common] {
             options->effects ? run_effects(*options, common) : run_bench(*options, common);

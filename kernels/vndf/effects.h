@@ -20,7 +20,8 @@
 //   VNDF_CONDUCTOR       the rough conductor; 0: every material has metal = 0
 //   VNDF_DIELECTRIC      the rough dielectric; 0: every material with metal < 1 has ior = 1 and transmission = 0
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
-//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument; the code hardly changes
+//   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument, a number of each material that a
+//                        renderer keeps and reads, and two instructions: no time that could be told from noise
 //   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
 //   VNDF_ABSORPTION      what the body behind a surface absorbs of light on its way through; 0: nothing. vndf_bsdf_transmittance alone
 //                        asks for it
