@@ -52,6 +52,16 @@ std::array<Material, 5> materials_of(std::string_view kind) {
         return {plastic({0.7f, 0.2f, 0.15f}, 0.02f), plastic({0.7f, 0.5f, 0.2f}, 0.1f),
                 plastic({0.7f, 0.7f, 0.7f}, 0.2f), plastic({0.3f, 0.55f, 0.25f}, 0.35f),
                 plastic({0.2f, 0.3f, 0.6f}, 0.5f)};
+    if (kind == "coat")
+        return {coated(lambert({0.55f, 0.03f, 0.02f}), 1, 0.001f),
+                coated(conductor(gold, 0.3f, 0.3f), 1, 0.01f),
+                coated(conductor({0.05f, 0.09f, 0.3f}, 0.4f, 0.4f), 1, 0.03f),
+                coated(rough(lambert({0.6f, 0.5f, 0.35f}), 0.8f), 0.5f, 0.1f),
+                coated(lambert({0.03f, 0.03f, 0.03f}), 1, 0.3f)};
+    if (kind == "clay")  // from smooth to rough
+        return {lambert({0.75f, 0.42f, 0.3f}), rough(lambert({0.75f, 0.42f, 0.3f}), 0.25f),
+                rough(lambert({0.75f, 0.42f, 0.3f}), 0.5f), rough(lambert({0.75f, 0.42f, 0.3f}), 0.75f),
+                rough(lambert({0.75f, 0.42f, 0.3f}), 1)};
     if (kind == "diffuse")
         return {lambert({0.7f, 0.2f, 0.15f}), lambert({0.7f, 0.5f, 0.2f}), lambert({0.7f, 0.7f, 0.7f}),
                 lambert({0.3f, 0.55f, 0.25f}), lambert({0.2f, 0.3f, 0.6f})};
@@ -109,6 +119,17 @@ Material plastic(Vec albedo, float alpha) {
     return m;
 }
 
+Material rough(Material diffuse, float roughness) {
+    diffuse.diffuse_roughness = roughness;
+    return diffuse;
+}
+
+Material coated(Material base, float factor, float alpha) {
+    base.coat = factor;
+    base.coat_alpha = alpha;
+    return base;
+}
+
 std::uint32_t Scene::add_material(const Material& material) {
     materials.push_back(material);
     return static_cast<std::uint32_t>(materials.size() - 1);
@@ -156,8 +177,8 @@ Sky constant_sky(float radiance) {
 }
 
 const std::vector<std::string>& orb_kinds() {
-    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",
-                                                "diffuse",   "glass",      "plastic"};
+    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",  "diffuse",
+                                                "clay",      "glass",      "plastic", "coat"};
     return kinds;
 }
 

@@ -23,6 +23,8 @@ struct Material {
     Vec tint{1, 1, 1}, albedo{};
     float ior = 1, transmission = 0;  // of what is not metal
     Vec transmittance{1, 1, 1};
+    float diffuse_roughness = 0;
+    float coat = 0, coat_alpha = 0.01f;  // a layer of index 1.5 over all
 
     bool operator==(const Material&) const = default;
 };
@@ -30,6 +32,8 @@ Material conductor(Vec f0, float alpha_x, float alpha_y);
 Material lambert(Vec albedo);
 Material glass(float ior, float alpha);
 Material plastic(Vec albedo, float alpha);
+Material rough(Material diffuse, float roughness);
+Material coated(Material base, float factor, float alpha);
 
 struct Vertex {
     Vec place, normal;

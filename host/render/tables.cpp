@@ -33,6 +33,7 @@ std::vector<float> material_table(const Scene& scene) {
             row.insert(row.end(), rgb.begin(), rgb.end());
         row.insert(row.end(), {m.ior, m.transmission});
         row.insert(row.end(), m.transmittance.begin(), m.transmittance.end());
+        row.insert(row.end(), {m.diffuse_roughness, m.coat, m.coat_alpha});
         return row;
     });
 }

@@ -95,7 +95,10 @@
 #define VNDF_MATERIAL_IOR 15
 #define VNDF_MATERIAL_TRANSMISSION 16
 #define VNDF_MATERIAL_TRANSMITTANCE 17
-#define VNDF_MATERIAL_PLANES 20
+#define VNDF_MATERIAL_DIFFUSE_ROUGHNESS 20
+#define VNDF_MATERIAL_COAT 21
+#define VNDF_MATERIAL_COAT_ALPHA 22
+#define VNDF_MATERIAL_PLANES 23
 
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {

@@ -211,7 +211,8 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
           "conductor,dielectric,transport=importance", "dielectric,lambert,ndf=beckmann",
           "all,fresnel=conductor,masking=separable", "all,sampling=conic,fresnel=f82",
           "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin",
-          "all,energy=kulla_conty,fresnel=conductor"})
+          "all,energy=kulla_conty,fresnel=conductor", "lambert,rough_diffuse", "lambert,coat",
+          "conductor,coat", "dielectric,coat,ndf=beckmann"})
         CHECK(not_vectorised_with(list) == "");
 }
 

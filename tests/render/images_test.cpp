@@ -127,6 +127,35 @@ TEST_CASE("a white ball under smooth plastic reflects what there is") {
     CHECK(mean(r.image()) == Catch::Approx(1).epsilon(0).margin(3e-3));
 }
 
+TEST_CASE("a white rough diffuse floor reflects everything") {
+    const render::Material white = render::rough(render::lambert({1, 1, 1}), 1);
+    CHECK(mean(rendered(floor_of(white, 1.2), 32, 32, 64 * effort()).image()) ==
+          Catch::Approx(1).epsilon(0).margin(3e-3));
+}
+
+TEST_CASE(
+    "a coat in a furnace reflects by itself what Fresnel says, and over white hardly more than there is") {
+    const double theta = 1.1, f = fresnel(std::cos(theta), 1.5);
+    const auto reflected = [&](const render::Material& base) {
+        return mean(rendered(floor_of(render::coated(base, 1, 1e-3f), theta), 32, 32, 64 * effort()).image());
+    };
+    CHECK(reflected(render::lambert({0, 0, 0})) == Catch::Approx(f).epsilon(0).margin(2e-3));
+    CHECK(reflected(mirror(1e-3f, 1e-3f)) == Catch::Approx(1).epsilon(0).margin(3e-3));
+    const double white = reflected(render::lambert({1, 1, 1}));
+    CHECK(white <= 1.002);
+    CHECK(white >= 0.94);
+}
+
+TEST_CASE("without a coat and roughness a picture is the same to the bit, with their effects or without") {
+    Rendered r = rendered(render::orbs("coat"), 48, 20, 4);
+    for (render::Material& m : r.scene.materials) m.coat = m.diffuse_roughness = 0;
+    const render::Image lean = r.image();
+    r.effects = "all";
+    CHECK(r.image().pixels == lean.pixels);
+    r.scene.materials[0].coat = 1;
+    CHECK(r.image().pixels != lean.pixels);
+}
+
 TEST_CASE("a furnace never gives more than it gets") {
     Rendered r = rendered(render::orbs("roughness"), 64, 32, 16 * effort());
     r.scene.sky = render::constant_sky(1);

@@ -18,11 +18,32 @@ inline std::size_t items_by_hand() {
 using Columns = std::vector<std::vector<double>>;
 
 // The inputs' names, in the order of kernels/batch/bsdf.cl.
-inline const std::vector<std::string> bsdf_parameters{
-    "alpha_x",         "alpha_y",         "first_r", "first_g", "first_b",      "second_r",
-    "second_g",        "second_b",        "tint_r",  "tint_g",  "tint_b",       "albedo_r",
-    "albedo_g",        "albedo_b",        "metal",   "ior",     "transmission", "transmittance_r",
-    "transmittance_g", "transmittance_b", "ng_x",    "ng_y",    "ng_z"};
+inline const std::vector<std::string> bsdf_parameters{"alpha_x",
+                                                      "alpha_y",
+                                                      "first_r",
+                                                      "first_g",
+                                                      "first_b",
+                                                      "second_r",
+                                                      "second_g",
+                                                      "second_b",
+                                                      "tint_r",
+                                                      "tint_g",
+                                                      "tint_b",
+                                                      "albedo_r",
+                                                      "albedo_g",
+                                                      "albedo_b",
+                                                      "metal",
+                                                      "ior",
+                                                      "transmission",
+                                                      "transmittance_r",
+                                                      "transmittance_g",
+                                                      "transmittance_b",
+                                                      "diffuse_roughness",
+                                                      "coat",
+                                                      "coat_alpha",
+                                                      "ng_x",
+                                                      "ng_y",
+                                                      "ng_z"};
 
 class BsdfProgram {
   public:
