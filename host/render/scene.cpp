@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "error.h"
+#include "render/gltf.h"
 
 namespace vndf::render {
 namespace {
@@ -58,6 +59,19 @@ std::array<Material, 5> materials_of(std::string_view kind) {
                 coated(conductor({0.05f, 0.09f, 0.3f}, 0.4f, 0.4f), 1, 0.03f),
                 coated(rough(lambert({0.6f, 0.5f, 0.35f}), 0.8f), 0.5f, 0.1f),
                 coated(lambert({0.03f, 0.03f, 0.03f}), 1, 0.3f)};
+    if (kind == "gltf") {  // rough metal, brushed metal, lacquer, plastic, a lamp
+        GltfMaterial metal, brushed, lacquer, plain, lamp;
+        metal.base_colour = brushed.base_colour = gold;
+        metal.roughness = 0.45f;
+        brushed.roughness = 0.3f, brushed.anisotropy = 0.8f;
+        lacquer.base_colour = {0.25f, 0.02f, 0.3f}, lacquer.metallic = 0.7f, lacquer.roughness = 0.6f;
+        lacquer.clearcoat = 1, lacquer.clearcoat_roughness = 0.1f;
+        plain.base_colour = {0.1f, 0.35f, 0.15f}, plain.metallic = 0, plain.roughness = 0.4f;
+        lamp.base_colour = {0.8f, 0.8f, 0.8f}, lamp.metallic = 0, lamp.roughness = 0.5f;
+        lamp.emissive = {1, 0.6f, 0.25f}, lamp.emissive_strength = 2;
+        return {material_of(metal), material_of(brushed), material_of(lacquer), material_of(plain),
+                material_of(lamp)};
+    }
     if (kind == "clay")  // from smooth to rough
         return {lambert({0.75f, 0.42f, 0.3f}), rough(lambert({0.75f, 0.42f, 0.3f}), 0.25f),
                 rough(lambert({0.75f, 0.42f, 0.3f}), 0.5f), rough(lambert({0.75f, 0.42f, 0.3f}), 0.75f),
@@ -177,8 +191,8 @@ Sky constant_sky(float radiance) {
 }
 
 const std::vector<std::string>& orb_kinds() {
-    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",  "diffuse",
-                                                "clay",      "glass",      "plastic", "coat"};
+    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals", "diffuse", "clay",
+                                                "glass",     "plastic",    "coat",   "gltf"};
     return kinds;
 }
 

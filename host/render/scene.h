@@ -25,6 +25,7 @@ struct Material {
     Vec transmittance{1, 1, 1};
     float diffuse_roughness = 0;
     float coat = 0, coat_alpha = 0.01f;  // a layer of index 1.5 over all
+    Vec emission{};                      // radiance, on both sides
 
     bool operator==(const Material&) const = default;
 };

@@ -34,6 +34,7 @@ std::vector<float> material_table(const Scene& scene) {
         row.insert(row.end(), {m.ior, m.transmission});
         row.insert(row.end(), m.transmittance.begin(), m.transmittance.end());
         row.insert(row.end(), {m.diffuse_roughness, m.coat, m.coat_alpha});
+        row.insert(row.end(), m.emission.begin(), m.emission.end());
         return row;
     });
 }

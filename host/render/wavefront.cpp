@@ -27,6 +27,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       view_(view_of(scene.camera, settings.width, settings.height)),
       sky_(sky_of(scene.sky)),
       sizes_(sizes_of(scene)),
+      shines_(std::any_of(scene.materials.begin(), scene.materials.end(),
+                          [](const Material& m) { return m.emission != Vec{}; })),
       words_(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)),
       nodes_(stages.upload(tree.nodes)),
       leaves_(stages.upload(tree.leaves)),
@@ -87,6 +89,9 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
         stages_.launch(
             "surface", whole,
             {&sizes_, vertices_, triangles_, hit_, triangle_, count, stride_, path, surface_, material_});
+        if (shines_)
+            stages_.launch("glow", whole,
+                           {&sizes_, materials_, material_, path, slot, count, stride_, light_});
         stages_.launch("lights", whole,
                        {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
         stages_.launch("connect", whole, {&sizes_, materials_, material_, surface_, path, stride_, lights_});

@@ -98,7 +98,8 @@
 #define VNDF_MATERIAL_DIFFUSE_ROUGHNESS 20
 #define VNDF_MATERIAL_COAT 21
 #define VNDF_MATERIAL_COAT_ALPHA 22
-#define VNDF_MATERIAL_PLANES 23
+#define VNDF_MATERIAL_EMISSION 23
+#define VNDF_MATERIAL_PLANES 26
 
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "error.h"
+#include "render/gltf.h"
 #include "scenes.h"
 
 using namespace vndf;
@@ -125,6 +126,49 @@ TEST_CASE("smooth glass in a white furnace is Fresnel's, and a ball of it is not
 TEST_CASE("a white ball under smooth plastic reflects what there is") {
     Rendered r = rendered(floor_of(render::plastic({1, 1, 1}, 1e-3f), 0.7), 32, 32, 64 * effort());
     CHECK(mean(r.image()) == Catch::Approx(1).epsilon(0).margin(3e-3));
+}
+
+TEST_CASE("what shines by itself is as bright as it is said to be, and lights what is beside it") {
+    render::Material lamp = render::lambert({0, 0, 0});
+    lamp.emission = {2, 0.5f, 0.25f};
+    Rendered r = rendered(floor_of(lamp, 0.4), 8, 8, 4);
+    r.scene.sky = render::constant_sky(0);
+    const render::Image image = r.image();
+    for (int c = 0; c < 3; ++c) CHECK(image.pixels[c] == lamp.emission[c]);
+    // Of a floor in the middle of a great lamp that is all the sky it sees.
+    render::Scene scene = floor_of(render::lambert({0.5f, 0.5f, 0.5f}), 0.4);
+    scene.sky = render::constant_sky(0);
+    render::Material shell = render::lambert({0, 0, 0});
+    shell.emission = {1, 1, 1};
+    scene.add_sphere({0, 0, 0}, 300, 64, shell);
+    CHECK(mean(rendered(scene, 16, 16, 64 * effort()).image()) == Catch::Approx(0.5).epsilon(0).margin(2e-3));
+}
+
+TEST_CASE("a material of glTF is the renderer's by the formulas of its extensions") {
+    render::GltfMaterial gltf;
+    gltf.base_colour = {0.2f, 0.4f, 0.6f};
+    gltf.metallic = 0.25f, gltf.roughness = 0.5f, gltf.anisotropy = 0.6f;
+    gltf.clearcoat = 0.75f, gltf.clearcoat_roughness = 0.2f;
+    gltf.emissive = {1, 0.5f, 0}, gltf.emissive_strength = 4;
+    const render::Material m = render::material_of(gltf);
+    CHECK(m.alpha_y == 0.25f);
+    CHECK(m.alpha_x == Catch::Approx(0.25 + 0.75 * 0.36));
+    CHECK(m.metal == 0.25f);
+    CHECK(m.ior == 1.5f);
+    CHECK((m.first == gltf.base_colour && m.albedo == gltf.base_colour));
+    CHECK(m.coat == 0.75f);
+    CHECK(m.coat_alpha == Catch::Approx(0.04));
+    CHECK(m.emission == render::Vec{4, 2, 0});
+    // Half of the reflectance at normal incidence, and none.
+    gltf.specular = 0.5f;
+    const float index = render::material_of(gltf).ior;
+    CHECK(std::pow((index - 1) / (index + 1), 2) == Catch::Approx(0.02));
+    gltf.specular = 0;
+    CHECK(render::material_of(gltf).ior == 1);
+    gltf.specular = 1, gltf.specular_colour = {1e6f, 1, 1};
+    CHECK(render::material_of(gltf).ior == 1000);
+    gltf.transmission = 1, gltf.specular = 0;
+    CHECK(render::material_of(gltf).ior == 1.5f);
 }
 
 TEST_CASE("a white rough diffuse floor reflects everything") {
