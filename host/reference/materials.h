@@ -119,6 +119,7 @@ struct MaterialParameters {
     Rgb<R> tint, albedo;
     R metal, ior, transmission;
     Rgb<R> transmittance;
+    R diffuse_roughness, coat, coat_alpha;
     Vec3<R> ng;
 };
 
@@ -211,6 +212,67 @@ R diffuse_under(const R& albedo, const R& ior) {
     return albedo / (dense * dense) / (1 - albedo * inwards);
 }
 
+// Oren and Nayar's surface as Fujii improved it, with what it loses between its facets given back as Kulla and Conty do: BSDF times
+// pi. Portsmouth, Kutz & Hill 2025.
+template <class R>
+struct RoughDiffuse {
+    R roughness;
+
+    static R c1() { return R(1) / 2 - 2 / (3 * pi<R>()); }
+    static R c2() { return R(2) / 3 - 28 / (15 * pi<R>()); }
+    R first() const { return 1 / (1 + c1() * roughness); }
+    // What one reflection loses along a cosine, over roughness times first(): a fit, and what it fits.
+    static R loss(const R& z) {
+        if (!(z > 0)) return 0;
+        const R s = std::sqrt(1 - z * z),
+                s_part = R(-.25498611) + R(.41361677) * z - R(.23334412) * z * z + R(.07417089) * z * z * z;
+        return z * (R(.57447239) - R(.28665327) * z + s * s_part);
+    }
+    static R exact_loss(const R& z) {
+        const R s = std::sqrt(1 - z * z),
+                g = s * (std::acos(z) - s * z) + 2 * s / 3 * ((1 - s * s * s) / z - 1);
+        return c1() - g / pi<R>();
+    }
+    // cosines, and s = wo . wi less their product. more: to s / t or s, for the single reflection.
+    R operator()(const R& albedo, const R& z_o, const R& z_i, const R& s, const R& more = 0) const {
+        const R a = first(), single = albedo * a * (1 + roughness * (ratio(z_o, z_i, s) + more));
+        return single + again(albedo) * roughness * a * loss(z_o) * loss(z_i) / (c1() - c2());
+    }
+    // The sum of its terms' sizes, by which rounding counts; products: the size of those that s is the sum of.
+    R size(const R& albedo, const R& z_o, const R& z_i, const R& products, const R& more = 0) const {
+        const R terms = albedo * (ratio(z_o, z_i, products) + c1() + std::abs(more)) + again(albedo);
+        return albedo + 2 * roughness * first() * terms;
+    }
+
+  private:
+    static R ratio(const R& z_o, const R& z_i, const R& s) { return s > 0 ? s / std::max(z_o, z_i) : s; }
+    R again(const R& albedo) const {
+        const R mean = first() * (1 + c2() * roughness);
+        return albedo * albedo * mean / (1 - albedo * (1 - mean));
+    }
+};
+
+// The part of a direction's light that a smooth interface keeps inside of a rough surface's single reflection, less than of
+// Lambert's: a fit, for the cosine behind the interface.
+template <class R>
+R kept_inside(const R& z, const R& dense) {
+    const R m = std::sqrt(1 - 1 / (dense * dense));
+    return m * (R(-.294558) - R(.579601) * m - R(.064052) * m * m + z * (R(1.03267) + R(.725367) * m) -
+                R(.737286) * z * z);
+}
+
+// The part of the light that a rough layer of index 1.5 reflects along a cosine: a fit.
+template <class R>
+R coat_albedo(MaterialModel::Ndf ndf, const R& cosine, const R& alpha) {
+    const bool ggx = ndf == MaterialModel::Ndf::ggx;
+    const R c = within<R>(cosine, 0, 1), a2 = alpha * alpha;
+    const R spread = ggx ? R(.3) + R(.7) * alpha + R(5.25) * a2 : R(1.75) - alpha + R(5.6) * a2;
+    const R bend = ggx ? 1 + R(.19) * c : 1 - R(.49) * c,
+            hidden = ggx ? R(.62) - R(.27) * a2 : R(.36) * a2 - R(.2);
+    const R seen = fresnel_dielectric<R>(std::sqrt(c * c + a2 / spread * (1 - c) * bend), R(1.5));
+    return within<R>(seen * (1 - a2 * hidden), 0, 1);
+}
+
 // A material seen from wo: a conductor by F D G2 / (4 cos(theta_o)), a dielectric by Walter's Equations 20 and 21, Lambert's
 // albedo / pi under it, and the rule about sides, each as its definition says it. Surfaces have two sides.
 template <class R>
@@ -230,49 +292,132 @@ class MaterialView {
         // From the denser side bounded and conic sampling are plain.
         if (transmits() && media_.there < media_.here) model_.sampling = MaterialModel::Sampling::plain;
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
-        view_ = view(wo_, p_.alpha_x, p_.alpha_y);
-        bound_ = reference::bound(view_, wo_);
+        p_.diffuse_roughness = within<R>(p.diffuse_roughness, 0, 1);
+        p_.coat = within<R>(p.coat, 0, 1), p_.coat_alpha = within<R>(p.coat_alpha, least, 1);
+        base_ = facets(p_.alpha_x, p_.alpha_y), coat_ = facets(p_.coat_alpha, p_.coat_alpha);
         if (model.energy == MaterialModel::Energy::kulla_conty)
             for (int c = 0; c < 3; ++c)
                 average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
-        if (wo_.z > 0 && model_.sampling == MaterialModel::Sampling::conic)
-            visible_ = ggx_sigma_visible(view_);
     }
 
     MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
-        if (model_.energy != MaterialModel::Energy::none) return compensated(wi, losses);
-        MaterialValue<R> value = transmits() && wi.z < 0 ? refracted(wi) : reflected(wi);
+        if (model_.energy != MaterialModel::Energy::none) return coated(wi, compensated(wi, losses));
+        MaterialValue<R> value = crosses(wi) ? refracted(wi) : reflected(wi);
         if (inside_ && !moved_) add_index_slope(direction, value);
-        return value;
+        return moved_ ? value : coated(wi, value);
     }
 
   private:
+    struct Facets {
+        R alpha_x, alpha_y;
+        View<R> view;
+        Bound<R> bound;
+        R visible;
+    };
+    Facets facets(const R& alpha_x, const R& alpha_y) const {
+        const View<R> seen = view(wo_, alpha_x, alpha_y);
+        const bool conic = wo_.z > 0 && model_.sampling == MaterialModel::Sampling::conic;
+        return {alpha_x, alpha_y, seen, reference::bound(seen, wo_), conic ? ggx_sigma_visible(seen) : R(0)};
+    }
+    bool crosses(const Vec3<R>& wi) const { return transmits() && wi.z < 0; }
+
+    // --- Under a coat, which lies outside of a body ---
+
+    MaterialValue<R> coated(const Vec3<R>& wi, MaterialValue<R> value) const {
+        if (p_.coat == 0) return value;
+        const auto kept = [&](const R& cosine) {
+            return p_.coat * coat_albedo<R>(model_.ndf, cosine, p_.coat_alpha);
+        };
+        // Of a part that is let through: what rounding makes of it, its arguments' too.
+        const auto slope = [&](const R& cosine) {
+            const R z = within<R>(cosine, 0, 1);
+            return kept(z) + by_cosine(kept, z) * z + kept_by_alpha(z);
+        };
+        const bool through = crosses(wi);
+        const R chance = inside_ ? R(0) : kept(wo_.z), own = inside_ ? R(0) : slope(wo_.z),
+                z = std::abs(wi.z);
+        R lets_through = 1 - chance, lets_slope = own;
+        if (through == inside_ && 1 - kept(z) < lets_through)
+            lets_through = 1 - kept(z), lets_slope = slope(z);
+        for (int c = 0; c < 3; ++c) {
+            value.slope[c] = value.slope[c] * lets_through + value.f[c] * lets_slope;
+            value.f[c] *= lets_through;
+        }
+        value.pdf_slope = value.pdf_slope * (1 - chance) + value.pdf * own;
+        value.pdf *= 1 - chance;
+        if (through || inside_) return value;
+        const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+        const R exponent = this->exponent(h, coat_), pdf = facets_pdf(coat_, wi);
+        value.pdf += chance * pdf;
+        value.pdf_slope += (own + 2 * chance * exponent) * pdf;
+        const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
+        value.settled = value.settled && settled(coat_, wi, height_o, height_i);
+        if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
+        const R mirror = p_.coat * part(wi, height_i) *
+                         (model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(coat_, h, wi)
+                                                                : mirrored<Beckmann>(coat_, h, wi));
+        const auto light = [&](const R& cosine) { return mirror * fresnel_dielectric<R>(cosine, R(1.5)); };
+        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, f = light(cosine);
+        for (int c = 0; c < 3; ++c) {
+            value.f[c] += f;
+            value.slope[c] += by_cosine(light, cosine) * cosine + f * (1 / height_i + 2 * exponent);
+        }
+        return value;
+    }
+    R kept_by_alpha(const R& cosine) const {
+        const R step = R(1e-6);
+        const R low = coat_albedo<R>(model_.ndf, cosine, p_.coat_alpha * (1 - step)),
+                high = coat_albedo<R>(model_.ndf, cosine, p_.coat_alpha * (1 + step));
+        return p_.coat * std::abs(high - low) / (2 * step);
+    }
+
+    // --- A diffuse surface: BSDF times pi of one, and the size of its terms ---
+
+    std::pair<R, R> in_the_open(const R& albedo, const Vec3<R>& wi) const {
+        if (p_.diffuse_roughness == 0) return {albedo, albedo};
+        const RoughDiffuse<R> rough{p_.diffuse_roughness};
+        const R x = wo_.x * wi.x, y = wo_.y * wi.y;
+        return {rough(albedo, wo_.z, wi.z, x + y),
+                rough.size(albedo, wo_.z, wi.z, std::abs(x) + std::abs(y))};
+    }
+    // What a rough one has beyond Lambert's under an interface that bends both directions, before it lets them through.
+    std::pair<R, R> beyond_lambert(const R& albedo, const Vec3<R>& wi) const {
+        if (p_.diffuse_roughness == 0) return {R(0), R(0)};
+        const R dense = p_.ior < 1 ? 1 / p_.ior : p_.ior, square = dense * dense;
+        const auto bent = [&](const R& z) { return std::sqrt(1 - (1 - z * z) / square); };
+        const R o = bent(wo_.z), i = bent(wi.z), x = wo_.x * wi.x / square, y = wo_.y * wi.y / square;
+        const R back = dense == 1 ? R(0) : -(kept_inside(o, dense) + kept_inside(i, dense));
+        const RoughDiffuse<R> rough{p_.diffuse_roughness};
+        const R size = rough.size(albedo, o, i, std::abs(x) + std::abs(y), R(4));
+        return {(rough(albedo, o, i, x + y, back) - albedo) / square, size / square};
+    }
+
     // Without a dielectric: energy models are of conductors.
     MaterialValue<R> compensated(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
         const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
-        value.exponent = model_.ndf == MaterialModel::Ndf::beckmann && h.z > 0
-                             ? Beckmann::exponent(h, p_.alpha_x, p_.alpha_y)
-                             : R(0);
+        value.exponent = exponent(h);
         const R diffuse = p_.metal * diffuse_share(losses);
-        value.pdf = (p_.metal - diffuse) * facets_pdf(wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
+        value.pdf = (p_.metal - diffuse) * facets_pdf(base_, wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
+        value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R fade = ng_.z > 0 ? height_i / (wi.z * ng_.z) : R(1);
         const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
-        const R mirror =
-            model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
+        const R mirror = model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(base_, h, wi)
+                                                               : mirrored<Beckmann>(base_, h, wi);
         // For directions that are unit vectors but for rounding: with either the same.
         const R cosine = (dot(wo_, h) + dot(wi, h)) / 2;
         for (int c = 0; c < 3; ++c) {
             R scale = passing * p_.metal * p_.tint[c] * mirror;
             if (model_.energy == MaterialModel::Energy::turquin)
                 scale *= 1 + p_.tint[c] * reflectance(c, R(1)) * losses.o / (1 - losses.o);
-            value.f[c] =
-                scale * reflectance(c, cosine) + passing * (1 - p_.metal) * p_.albedo[c] * wi.z / pi<R>();
-            value.slope[c] = scale * reflectance_slope(c, cosine) + value.f[c] / height_i;
+            const R white = passing * (1 - p_.metal) * wi.z / pi<R>();
+            const auto [albedo, size] = in_the_open(p_.albedo[c], wi);
+            value.f[c] = scale * reflectance(c, cosine) + white * albedo;
+            value.slope[c] =
+                scale * reflectance_slope(c, cosine) + value.f[c] / height_i + white * (size - albedo);
             if (model_.energy == MaterialModel::Energy::turquin)
                 value.slope[c] += scale * reflectance(c, cosine) * losses.o * reflectance_slope(c, R(1));
             if (model_.energy != MaterialModel::Energy::kulla_conty) continue;
@@ -294,7 +439,7 @@ class MaterialView {
         const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
         value.exponent = exponent(h);
         // For directions that are unit vectors but for rounding: with either the same.
-        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, mirror_pdf = facets_pdf(wi),
+        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, mirror_pdf = facets_pdf(base_, wi),
                 diffuse_pdf = diffuse_share() * lambert_pdf(wi);
         const auto pdf = [&](const R& c) { return (p_.metal + odds(c).first) * mirror_pdf + diffuse_pdf; };
         value.pdf = pdf(cosine);
@@ -303,22 +448,24 @@ class MaterialView {
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
         value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition();
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        value.settled = settled(wi, height_o, height_i) && !opposite(wi);
+        value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R passing = part(wi, height_i);
-        const R mirror =
-            model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(h, wi) : mirrored<Beckmann>(h, wi);
+        const R mirror = model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(base_, h, wi)
+                                                               : mirrored<Beckmann>(base_, h, wi);
         const R lets_in = 1 - media_.reflectance(wo_.z), lets_out = 1 - media_.reflectance(wi.z);
         for (int c = 0; c < 3; ++c) {
             const R scale = passing * p_.metal * p_.tint[c] * mirror, rest = passing * (1 - p_.metal);
             const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x); };
-            const R under =
-                rest * (1 - p_.transmission) * diffuse_under(p_.albedo[c], p_.ior) * wi.z / pi<R>();
+            const R white = rest * (1 - p_.transmission) * wi.z / pi<R>();
+            const auto [beyond, size] = beyond_lambert(p_.albedo[c], wi);
+            const R under = white * (diffuse_under(p_.albedo[c], p_.ior) + beyond);
             const R diffuse = under * lets_in * lets_out;
             value.f[c] = scale * reflectance(c, cosine) + dielectric(cosine) + diffuse;
             value.slope[c] = scale * reflectance_slope(c, cosine) + by_cosine(dielectric, cosine) * cosine +
                              value.f[c] / height_i +
-                             under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z));
+                             under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z)) +
+                             white * size * lets_in * lets_out;
         }
         return value;
     }
@@ -389,6 +536,7 @@ class MaterialView {
     template <class F>
     static R by_cosine(const F& value, const R& cosine) {
         const R step = R(1e-6) * cosine;
+        if (step == 0) return 0;
         return std::abs(value(cosine + step) - value(cosine - step)) / (2 * step);
     }
     // Behind the surface 1 / ior is rounded.
@@ -409,9 +557,10 @@ class MaterialView {
         return cosine > 0 ? R(1 + 2 * by_cosine(reflectance, cosine) * cosine) : R(1);
     }
 
-    R exponent(const Vec3<R>& h) const {
+    R exponent(const Vec3<R>& h) const { return exponent(h, base_); }
+    R exponent(const Vec3<R>& h, const Facets& f) const {
         return model_.ndf == MaterialModel::Ndf::beckmann && h.z > 0
-                   ? Beckmann::exponent(h, p_.alpha_x, p_.alpha_y)
+                   ? Beckmann::exponent(h, f.alpha_x, f.alpha_y)
                    : R(0);
     }
     // Near the geometric horizon light fades.
@@ -420,10 +569,10 @@ class MaterialView {
         return fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
     }
     // A height is a sum of rounded products, and next to the edge of the bounded cap its density is any of two.
-    bool settled(const Vec3<R>& wi, const R& height_o, const R& height_i) const {
+    bool settled(const Facets& f, const Vec3<R>& wi, const R& height_o, const R& height_i) const {
         if (level(height_o) || level(height_i)) return false;
         if (model_.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
-        const Margin<R> margin = eto_margin(wo_, wi, view_, bound_);
+        const Margin<R> margin = eto_margin(wo_, wi, f.view, f.bound);
         return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
     }
     // Between opposite directions no facet is told from another.
@@ -486,29 +635,29 @@ class MaterialView {
     }
     // D G2 / (4 cos(theta_o))
     template <class N>
-    R mirrored(const Vec3<R>& h, const Vec3<R>& wi) const {
-        const View<R> i = view(wi, p_.alpha_x, p_.alpha_y);
-        const R masked = model_.masking == MaterialModel::Masking::correlated ? g2<N>(view_, i)
-                                                                              : R(g1<N>(view_) * g1<N>(i));
-        return N::template ndf<R>(h, p_.alpha_x, p_.alpha_y) * masked / (4 * wo_.z);
+    R mirrored(const Facets& f, const Vec3<R>& h, const Vec3<R>& wi) const {
+        const View<R> i = view(wi, f.alpha_x, f.alpha_y);
+        const R masked = model_.masking == MaterialModel::Masking::correlated ? g2<N>(f.view, i)
+                                                                              : R(g1<N>(f.view) * g1<N>(i));
+        return N::template ndf<R>(h, f.alpha_x, f.alpha_y) * masked / (4 * wo_.z);
     }
     // D G1 G1
     template <class N>
     R crossed(const Vec3<R>& h, const Vec3<R>& raised) const {
-        return N::template ndf<R>(h, p_.alpha_x, p_.alpha_y) * g1<N>(view_) *
+        return N::template ndf<R>(h, p_.alpha_x, p_.alpha_y) * g1<N>(base_.view) *
                g1<N>(view(raised, p_.alpha_x, p_.alpha_y));
     }
-    R facets_pdf(const Vec3<R>& wi) const {
+    R facets_pdf(const Facets& f, const Vec3<R>& wi) const {
         if (model_.ndf == MaterialModel::Ndf::beckmann)
-            return pdf_wi<Beckmann, R>(wo_, wi, p_.alpha_x, p_.alpha_y);
+            return pdf_wi<Beckmann, R>(wo_, wi, f.alpha_x, f.alpha_y);
         const bool front = wo_.z > 0;
         if (front && model_.sampling == MaterialModel::Sampling::bounded)
-            return ggx_pdf_wi_bounded(wo_, wi, view_, bound_, precision_);
+            return ggx_pdf_wi_bounded(wo_, wi, f.view, f.bound, precision_);
         if (front && model_.sampling == MaterialModel::Sampling::conic) {
             const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
-            return wi.z > 0 ? R(Ggx::ndf(h, p_.alpha_x, p_.alpha_y) / (4 * visible_)) : R(0);
+            return wi.z > 0 ? R(Ggx::ndf(h, f.alpha_x, f.alpha_y) / (4 * f.visible)) : R(0);
         }
-        return pdf_wi<Ggx, R>(wo_, wi, p_.alpha_x, p_.alpha_y);
+        return pdf_wi<Ggx, R>(wo_, wi, f.alpha_x, f.alpha_y);
     }
 
     MaterialModel model_;
@@ -517,10 +666,9 @@ class MaterialView {
     bool behind_, inside_ = false, moved_ = false;
     Vec3<R> wo_, ng_;
     Interface<R> media_{};
-    View<R> view_;
-    Bound<R> bound_{};
+    Facets base_{}, coat_{};
     Rgb<R> average_{};  // reflectances, by the cosine law
-    R visible_ = 0, mean_cosine_ = 1;
+    R mean_cosine_ = 1;
 };
 
 }  // namespace vndf::reference

@@ -60,6 +60,14 @@ const std::map<std::string, std::function<std::string(const Scene&)>>& callers()
          [](const Scene& s) {
              return materials_that(s, [](const Material& m) { return m.metal < 1 && m.transmission < 1; });
          }},
+        {"rough_diffuse",
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) {
+                 return m.metal < 1 && m.transmission < 1 && m.diffuse_roughness > 0;
+             });
+         }},
+        {"coat",
+         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.coat > 0; }); }},
         {"anisotropic",
          [](const Scene& s) {
              return materials_that(s, [](const Material& m) {

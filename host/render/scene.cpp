@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "error.h"
+#include "render/gltf.h"
 
 namespace vndf::render {
 namespace {
@@ -60,6 +61,29 @@ std::array<Material, 5> materials_of(std::string_view kind) {
         return {plastic({0.7f, 0.2f, 0.15f}, 0.02f), plastic({0.7f, 0.5f, 0.2f}, 0.1f),
                 plastic({0.7f, 0.7f, 0.7f}, 0.2f), plastic({0.3f, 0.55f, 0.25f}, 0.35f),
                 plastic({0.2f, 0.3f, 0.6f}, 0.5f)};
+    if (kind == "coat")
+        return {coated(lambert({0.55f, 0.03f, 0.02f}), 1, 0.001f),
+                coated(conductor(gold, 0.3f, 0.3f), 1, 0.01f),
+                coated(conductor({0.05f, 0.09f, 0.3f}, 0.4f, 0.4f), 1, 0.03f),
+                coated(rough(lambert({0.6f, 0.5f, 0.35f}), 0.8f), 0.5f, 0.1f),
+                coated(lambert({0.03f, 0.03f, 0.03f}), 1, 0.3f)};
+    if (kind == "gltf") {  // rough metal, brushed metal, lacquer, plastic, a lamp
+        GltfMaterial metal, brushed, lacquer, plain, lamp;
+        metal.base_colour = brushed.base_colour = gold;
+        metal.roughness = 0.45f;
+        brushed.roughness = 0.3f, brushed.anisotropy = 0.8f;
+        lacquer.base_colour = {0.25f, 0.02f, 0.3f}, lacquer.metallic = 0.7f, lacquer.roughness = 0.6f;
+        lacquer.clearcoat = 1, lacquer.clearcoat_roughness = 0.1f;
+        plain.base_colour = {0.1f, 0.35f, 0.15f}, plain.metallic = 0, plain.roughness = 0.4f;
+        lamp.base_colour = {0.8f, 0.8f, 0.8f}, lamp.metallic = 0, lamp.roughness = 0.5f;
+        lamp.emissive = {1, 0.6f, 0.25f}, lamp.emissive_strength = 2;
+        return {material_of(metal), material_of(brushed), material_of(lacquer), material_of(plain),
+                material_of(lamp)};
+    }
+    if (kind == "clay")  // from smooth to rough
+        return {lambert({0.75f, 0.42f, 0.3f}), rough(lambert({0.75f, 0.42f, 0.3f}), 0.25f),
+                rough(lambert({0.75f, 0.42f, 0.3f}), 0.5f), rough(lambert({0.75f, 0.42f, 0.3f}), 0.75f),
+                rough(lambert({0.75f, 0.42f, 0.3f}), 1)};
     if (kind == "diffuse")
         return {lambert({0.7f, 0.2f, 0.15f}), lambert({0.7f, 0.5f, 0.2f}), lambert({0.7f, 0.7f, 0.7f}),
                 lambert({0.3f, 0.55f, 0.25f}), lambert({0.2f, 0.3f, 0.6f})};
@@ -129,6 +153,17 @@ bool transmits(const Material& m) {
     return m.metal < 1 && m.transmission > 0;
 }
 
+Material rough(Material diffuse, float roughness) {
+    diffuse.diffuse_roughness = roughness;
+    return diffuse;
+}
+
+Material coated(Material base, float factor, float alpha) {
+    base.coat = factor;
+    base.coat_alpha = alpha;
+    return base;
+}
+
 std::uint32_t Scene::add_material(const Material& material) {
     materials.push_back(material);
     return static_cast<std::uint32_t>(materials.size() - 1);
@@ -176,8 +211,8 @@ Sky constant_sky(float radiance) {
 }
 
 const std::vector<std::string>& orb_kinds() {
-    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals", "diffuse",
-                                                "glass",     "tinted",     "plastic"};
+    static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",  "diffuse", "clay",
+                                                "glass",     "tinted",     "plastic", "coat",    "gltf"};
     return kinds;
 }
 

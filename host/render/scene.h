@@ -25,6 +25,9 @@ struct Material {
     Vec transmittance{1, 1, 1};
     float dispersion = 0;  // 20 over Abbe's number
     Vec absorption{};      // by the body behind, in a unit of length
+    float diffuse_roughness = 0;
+    float coat = 0, coat_alpha = 0.01f;  // a layer of index 1.5 over all
+    Vec emission{};                      // radiance, on both sides
 
     bool operator==(const Material&) const = default;
 };
@@ -32,6 +35,8 @@ Material conductor(Vec f0, float alpha_x, float alpha_y);
 Material lambert(Vec albedo);
 Material glass(float ior, float alpha);
 Material plastic(Vec albedo, float alpha);
+Material rough(Material diffuse, float roughness);
+Material coated(Material base, float factor, float alpha);
 // Of which a way of `distance` leaves `colour` of white light, as glTF has it (KHR_materials_volume).
 Material tinted(Material glass, Vec colour, float distance);
 

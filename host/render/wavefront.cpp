@@ -28,6 +28,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       view_(view_of(scene.camera, settings.width, settings.height)),
       sky_(sky_of(scene.sky)),
       sizes_(sizes_of(scene)),
+      shines_(std::any_of(scene.materials.begin(), scene.materials.end(),
+                          [](const Material& m) { return m.emission != Vec{}; })),
       words_(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)),
       nodes_(stages.upload(tree.nodes)),
       leaves_(stages.upload(tree.leaves)),
@@ -85,7 +87,7 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
                            {&sizes_, vertices_, triangles_, materials_, hit_[0], triangle_[0], word_buffer_,
                             channel_quad, slot, first, count, stride_, path});
         stages_.launch("leave", count, {&sky_, path, triangle_[0], slot, count, stride_, light_});
-        if (bounce == settings_.max_bounces) return;
+        if (bounce == settings_.max_bounces && !shines_) return;
         const auto chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
         stages_.launch("count", chunks, {triangle_[0], count, chunks, offset_});
         stages_.launch("offsets", 1, {chunks, offset_});
@@ -98,6 +100,7 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
         std::swap(path, moved);
         std::swap(slot, moved_slot);
         turn(first, count, bounce, path, slot);
+        if (bounce == settings_.max_bounces) return;
     }
 }
 
@@ -110,6 +113,9 @@ void Wavefront::turn(std::uint32_t first, std::uint32_t count, unsigned bounce, 
     stages_.launch(
         "surface", count,
         {&sizes_, vertices_, triangles_, hit_[1], triangle_[1], count, stride_, path, surface_, material_});
+    if (shines_)
+        stages_.launch("glow", count, {&sizes_, materials_, material_, path, slot, count, stride_, light_});
+    if (bounce == settings_.max_bounces) return;
     stages_.launch("lights", count,
                    {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
     stages_.launch("connect", count, {&sizes_, materials_, material_, surface_, path, stride_, lights_});

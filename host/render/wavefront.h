@@ -53,6 +53,7 @@ class Wavefront {
     vndf_render_view view_;
     vndf_render_sky sky_;
     vndf_render_sizes sizes_;
+    bool shines_;  // any surface by itself
     Words words_;
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more

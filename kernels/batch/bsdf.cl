@@ -9,17 +9,19 @@
 #define VNDF_BSDF_RGB(S, c) S(c##_r) S(c##_g) S(c##_b)
 #define VNDF_BSDF_XYZ(S, v) S(v##_x) S(v##_y) S(v##_z)
 // The material: `first` and `second` are eta and k, f0 and (f90, -, -), or f0 and f82.
-#define VNDF_BSDF_PARAMETERS(S) \
-    S(alpha_x)                  \
-    S(alpha_y)                  \
-    VNDF_BSDF_RGB(S, first)     \
-    VNDF_BSDF_RGB(S, second)    \
-    VNDF_BSDF_RGB(S, tint)      \
-    VNDF_BSDF_RGB(S, albedo)    \
-    S(metal)                    \
-    S(ior)                      \
-    S(transmission)             \
-    VNDF_BSDF_RGB(S, transmittance) S(dispersion) S(channel) VNDF_BSDF_RGB(S, absorption) VNDF_BSDF_XYZ(S, ng)
+#define VNDF_BSDF_PARAMETERS(S)                                                                      \
+    S(alpha_x)                                                                                       \
+    S(alpha_y)                                                                                       \
+    VNDF_BSDF_RGB(S, first)                                                                          \
+    VNDF_BSDF_RGB(S, second)                                                                         \
+    VNDF_BSDF_RGB(S, tint)                                                                           \
+    VNDF_BSDF_RGB(S, albedo)                                                                         \
+    S(metal)                                                                                         \
+    S(ior)                                                                                           \
+    S(transmission)                                                                                  \
+    VNDF_BSDF_RGB(S, transmittance)                                                                  \
+    S(dispersion) S(channel) VNDF_BSDF_RGB(S, absorption) S(diffuse_roughness) S(coat) S(coat_alpha) \
+        VNDF_BSDF_XYZ(S, ng)
 
 #define VNDF_BSDF_IN(v) __global const VNDF_REAL *restrict in_##v,
 #define VNDF_BSDF_OUT(v) __global VNDF_REAL *restrict out_##v,
@@ -97,6 +99,18 @@
 #else
 #define VNDF_BSDF_LOAD_IOR
 #endif
+#if VNDF_LAMBERT && VNDF_ROUGH_DIFFUSE
+#define VNDF_BSDF_LOAD_ROUGHNESS b.diffuse_roughness = in_diffuse_roughness[i];
+#else
+#define VNDF_BSDF_LOAD_ROUGHNESS
+#endif
+#if VNDF_COAT
+#define VNDF_BSDF_LOAD_COAT \
+    b.coat = in_coat[i];    \
+    b.coat_alpha = in_coat_alpha[i];
+#else
+#define VNDF_BSDF_LOAD_COAT
+#endif
 #if VNDF_SHADING_NORMAL
 #define VNDF_BSDF_LOAD_NG \
     b.ng_x = in_ng_x[i];  \
@@ -105,10 +119,11 @@
 #else
 #define VNDF_BSDF_LOAD_NG
 #endif
-#define VNDF_BSDF_LOAD                                                                             \
-    VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT       \
-        VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_IOR \
-            VNDF_BSDF_LOAD_DISPERSION VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_NG
+#define VNDF_BSDF_LOAD                                                                                       \
+    VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT                 \
+        VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_IOR           \
+            VNDF_BSDF_LOAD_DISPERSION VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_ROUGHNESS VNDF_BSDF_LOAD_COAT \
+                VNDF_BSDF_LOAD_NG
 
 // The item of a work-item; bench goes through few groups of them again and again, which stay in cache.
 #ifdef VNDF_BSDF_GROUPS

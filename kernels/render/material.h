@@ -99,6 +99,13 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
     b.absorption = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_ABSORPTION);
 #endif
 #endif
+#if VNDF_LAMBERT && VNDF_ROUGH_DIFFUSE
+    b.diffuse_roughness = materials[VNDF_MATERIAL_DIFFUSE_ROUGHNESS * row.count + row.number];
+#endif
+#if VNDF_COAT
+    b.coat = materials[VNDF_MATERIAL_COAT * row.count + row.number];
+    b.coat_alpha = materials[VNDF_MATERIAL_COAT_ALPHA * row.count + row.number];
+#endif
 #if VNDF_SHADING_NORMAL
     b.ng_x = ng_x;
     b.ng_y = ng_y;

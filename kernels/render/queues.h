@@ -99,7 +99,11 @@
 #define VNDF_MATERIAL_TRANSMITTANCE 17
 #define VNDF_MATERIAL_DISPERSION 20
 #define VNDF_MATERIAL_ABSORPTION 21
-#define VNDF_MATERIAL_PLANES 24
+#define VNDF_MATERIAL_DIFFUSE_ROUGHNESS 24
+#define VNDF_MATERIAL_COAT 25
+#define VNDF_MATERIAL_COAT_ALPHA 26
+#define VNDF_MATERIAL_EMISSION 27
+#define VNDF_MATERIAL_PLANES 30
 
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {

@@ -54,6 +54,26 @@ VNDF_FN VNDF_REAL3 vndf_render_turned(VNDF_REAL3 w, float turn) {
     return VNDF_MAKE3(w.x, w.y, turn * w.z);
 }
 
+// What surfaces shine by themselves. They are no lights to sample, so that a path that meets one counts in full.
+VNDF_RENDER_KERNEL vndf_render_glow(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
+                                    VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) path,
+                                    VNDF_RENDER_IN(uint) slot, const uint count, const uint stride,
+                                    VNDF_RENDER_OUT(float) light) {
+    const uint i = VNDF_RENDER_ITEM;
+    const int met = i < count && material[i] != VNDF_MISS;
+    struct vndf_render_row row;
+    row.count = sizes.materials;
+    row.number = met ? material[i] : 0;
+    row.one = sizes.one;
+    const struct vndf_rgb emission = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_EMISSION);
+    // Items beyond the count have a slot of their own, which nobody reads.
+    const uint to = i < count ? slot[i] : stride - 1;
+    const float kept = met ? 1.0f : 0.0f;
+    light[to] += kept * path[VNDF_PATH_RED * stride + i] * emission.r;
+    light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] * emission.g;
+    light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] * emission.b;
+}
+
 // The light of the direction chosen becomes what of it arrives at the eye if nothing is in its way.
 VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
                                        VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) surface,

@@ -1,5 +1,5 @@
-// A material: a rough conductor, a rough dielectric, what lies under it: another medium or Lambert's diffuse reflection; or a
-// mix; with the effects of effects.h alone.
+// A material: a rough conductor, a rough dielectric, what lies under it: another medium or diffuse reflection, Lambert's or that of
+// a rough surface; or a mix; and a coat over it; with the effects of effects.h alone.
 //
 // Conventions of vndf.h: wo and wi are unit vectors in the local frame, z the shading normal. All functions take the material
 // by value; a member exists only where its effect is on.
@@ -54,54 +54,11 @@ struct vndf_impl_bsdf_lobes {
 #if VNDF_IMPL_DIFFUSE
     struct vndf_impl_bsdf_lobe diffuse;
 #endif
+#if VNDF_COAT
+    struct vndf_impl_bsdf_lobe coat;
+    VNDF_REAL base, let_through;  // of what lies under it: the probability, and a factor on its weight
+#endif
 };
-VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_of(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
-    struct vndf_impl_bsdf_lobes l;
-#if VNDF_IMPL_SPECULAR
-    l.specular = vndf_impl_bsdf_specular(v, i);
-#endif
-#if VNDF_IMPL_DIFFUSE
-    l.diffuse = vndf_impl_bsdf_diffuse(v, i);
-#endif
-    return l;
-}
-
-#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
-// Where one lobe has the whole share its weight and density, to the bit.
-VNDF_FN struct vndf_rgb vndf_impl_mixed(struct vndf_impl_bsdf_lobe s, struct vndf_impl_bsdf_lobe d) {
-    VNDF_REAL own = s.share * s.pdf, other = d.share * d.pdf, sum = own + other;
-    // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
-    // has left nothing of either density it is the specular one's.
-    int less = other <= own;
-    VNDF_REAL lesser = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
-              greater = VNDF_R(1.0) - lesser;
-    VNDF_REAL share = less ? lesser : greater, rest = less ? greater : lesser;
-    return vndf_impl_rgb(VNDF_FMA(share, d.weight.r, rest * s.weight.r),
-                         VNDF_FMA(share, d.weight.g, rest * s.weight.g),
-                         VNDF_FMA(share, d.weight.b, rest * s.weight.b));
-}
-#endif
-
-VNDF_FN struct vndf_rgb vndf_impl_bsdf_weight(struct vndf_impl_bsdf_lobes l) {
-#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
-    return vndf_impl_mixed(l.specular.lobe, l.diffuse);
-#elif VNDF_IMPL_SPECULAR
-    return l.specular.lobe.weight;
-#else
-    return l.diffuse.weight;
-#endif
-}
-VNDF_FN VNDF_REAL vndf_impl_bsdf_density(struct vndf_impl_bsdf_lobes l) {
-#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
-    struct vndf_impl_bsdf_lobe s = l.specular.lobe, d = l.diffuse;
-    return VNDF_FMA(s.share, s.pdf, d.share * d.pdf);
-#elif VNDF_IMPL_SPECULAR
-    return l.specular.lobe.share * l.specular.lobe.pdf;
-#else
-    return l.diffuse.share * l.diffuse.pdf;
-#endif
-}
-
 // Whether light crosses the surface.
 VNDF_FN int vndf_impl_bsdf_crosses(struct vndf_impl_bsdf_lobes l) {
 #if VNDF_DIELECTRIC
@@ -112,25 +69,100 @@ VNDF_FN int vndf_impl_bsdf_crosses(struct vndf_impl_bsdf_lobes l) {
 #endif
 }
 
+VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_of(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobes l;
+#if VNDF_IMPL_SPECULAR
+    l.specular = vndf_impl_bsdf_specular(v, i);
+#endif
+#if VNDF_IMPL_DIFFUSE
+    l.diffuse = vndf_impl_bsdf_diffuse(v, i);
+#endif
+#if VNDF_COAT
+#if VNDF_IMPL_SPECULAR
+    // Dependent on both.
+    VNDF_REAL last = l.specular.lobe.pdf >= VNDF_R(0.0) ? l.specular.lobe.weight.b : VNDF_R(1.0);
+#else
+    VNDF_REAL last = VNDF_R(1.0);
+#endif
+    l.coat = vndf_impl_bsdf_coat(v, i, vndf_impl_bsdf_crosses(l), last);
+    l.base = VNDF_R(1.0) - v.coat.share;
+    l.let_through = vndf_impl_coat_lets_through(v.coat, i, vndf_impl_bsdf_crosses(l), l.coat.weight.b);
+#endif
+    return l;
+}
+
+// Two lobes as one: where one of them has the whole share its weight and density, to the bit.
+VNDF_FN VNDF_REAL vndf_impl_mixed_pdf(struct vndf_impl_bsdf_lobe s, struct vndf_impl_bsdf_lobe d) {
+    return VNDF_FMA(s.share, s.pdf, d.share * d.pdf);
+}
+VNDF_FN struct vndf_rgb vndf_impl_mixed(struct vndf_impl_bsdf_lobe s, struct vndf_impl_bsdf_lobe d) {
+    VNDF_REAL own = s.share * s.pdf, other = d.share * d.pdf, sum = own + other;
+    // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
+    // has left nothing of either density it is the first one's.
+    int less = other <= own;
+    VNDF_REAL lesser = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
+              greater = VNDF_R(1.0) - lesser;
+    VNDF_REAL share = less ? lesser : greater, rest = less ? greater : lesser;
+    return vndf_impl_rgb(VNDF_FMA(share, d.weight.r, rest * s.weight.r),
+                         VNDF_FMA(share, d.weight.g, rest * s.weight.g),
+                         VNDF_FMA(share, d.weight.b, rest * s.weight.b));
+}
+
+// What lies under the coat.
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_base(struct vndf_impl_bsdf_lobes l) {
+    struct vndf_impl_bsdf_lobe base;
+#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+    base.weight = vndf_impl_mixed(l.specular.lobe, l.diffuse);
+    base.pdf = vndf_impl_mixed_pdf(l.specular.lobe, l.diffuse);
+#else
+#if VNDF_IMPL_SPECULAR
+    struct vndf_impl_bsdf_lobe only = l.specular.lobe;
+#else
+    struct vndf_impl_bsdf_lobe only = l.diffuse;
+#endif
+    base.weight = only.weight;
+    base.pdf = only.share * only.pdf;
+#endif
+    base.share = VNDF_R(1.0);
+    return base;
+}
+
+// All of it.
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_all(struct vndf_impl_bsdf_lobes l) {
+    struct vndf_impl_bsdf_lobe all = vndf_impl_bsdf_base(l);
+#if VNDF_COAT
+    all.weight = vndf_impl_rgb_scaled(all.weight, l.let_through);
+    all.share = l.base;
+    all.weight = vndf_impl_mixed(all, l.coat);
+    all.pdf = vndf_impl_mixed_pdf(all, l.coat);
+    all.share = VNDF_R(1.0);
+#endif
+    return all;
+}
+
 // --- A sample of it ---
 
-VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn(struct vndf_impl_bsdf_view v, VNDF_REAL2 u,
-                                                    VNDF_REAL u_lobe) {
-#if VNDF_IMPL_SPECULAR
-    struct vndf_impl_drawn d = vndf_impl_bsdf_drawn_specular(v, u, u_lobe);
-#else
+// What is drawn under the coat. The view's facets may be the coat's, for a u_lobe below 0: then it is a reflection by them.
+VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_base(struct vndf_impl_bsdf_view v, VNDF_REAL2 u,
+                                                         VNDF_REAL u_lobe) {
     struct vndf_impl_drawn d;
+#if VNDF_IMPL_SPECULAR
+    d = vndf_impl_bsdf_drawn_specular(v, u, u_lobe);
+#elif VNDF_IMPL_FACETS
+    d.w = vndf_impl_facets_sample(v.facets, u);
+    d.lobe = u_lobe < VNDF_R(0.0) ? VNDF_BSDF_COAT : VNDF_BSDF_LAMBERT;
+#else
     (void)v;
     (void)u_lobe;
     d.lobe = VNDF_BSDF_LAMBERT;
 #endif
 #if VNDF_IMPL_DIFFUSE
     struct vndf_impl_sample even = vndf_impl_lambert(u);
-#if VNDF_IMPL_SPECULAR
-    int specular = d.lobe != VNDF_BSDF_LAMBERT;
-    d.w.x = specular ? d.w.x : even.x;
-    d.w.y = specular ? d.w.y : even.y;
-    d.w.z = specular ? d.w.z : even.z;
+#if VNDF_IMPL_FACETS
+    int by_facets = d.lobe != VNDF_BSDF_LAMBERT;
+    d.w.x = by_facets ? d.w.x : even.x;
+    d.w.y = by_facets ? d.w.y : even.y;
+    d.w.z = by_facets ? d.w.z : even.z;
 #else
     d.w = even;
 #endif
@@ -138,11 +170,28 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn(struct vndf_impl_bsdf_view v
     return d;
 }
 
+// One sampler for all that has facets: which ones is chosen before, the coat at the end of u_lobe.
+VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn(struct vndf_impl_bsdf_view v, VNDF_REAL2 u,
+                                                    VNDF_REAL u_lobe) {
+#if VNDF_COAT
+    VNDF_REAL rest = VNDF_R(1.0) - v.coat.share;
+    int coated = u_lobe >= rest && rest < VNDF_R(1.0);
+    VNDF_REAL within = u_lobe / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
+    struct vndf_impl_bsdf_view chosen = v;
+    chosen.facets = vndf_impl_bsdf_chosen_facets(v, coated);
+    struct vndf_impl_drawn d = vndf_impl_bsdf_drawn_base(chosen, u, coated ? VNDF_R(-1.0) : within);
+    d.lobe = coated ? VNDF_BSDF_COAT : d.lobe;
+    return d;
+#else
+    return vndf_impl_bsdf_drawn_base(v, u, u_lobe);
+#endif
+}
+
 // All lobes at the direction that was drawn: their weights.
 VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_at(struct vndf_impl_bsdf_view v,
                                                             struct vndf_impl_drawn d) {
     VNDF_REAL z = d.w.z;
-#if VNDF_IMPL_SPECULAR && VNDF_IMPL_DIFFUSE
+#if VNDF_IMPL_FACETS && (VNDF_IMPL_DIFFUSE || VNDF_COAT)
     // Made dependent on the density of the sample, so that LLVM's SLP pass does not pack it with the one at wi (impl/stretch.h);
     // the other choice is never taken.
     z = d.w.pdf < VNDF_R(0.0) ? VNDF_R(1.0) : z;
@@ -150,14 +199,18 @@ VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_at(struct vndf_impl_bsd
     return vndf_impl_bsdf_lobes_of(v, VNDF_MAKE3(d.w.x, d.w.y, z));
 }
 
-// Its density from the sampler's own terms where it is specular.
+// Its density from the sampler's own terms where it has facets.
 VNDF_FN VNDF_REAL vndf_impl_bsdf_drawn_density(struct vndf_impl_bsdf_lobes l, struct vndf_impl_drawn d) {
+#if VNDF_COAT
+    l.coat.pdf = d.lobe == VNDF_BSDF_COAT ? d.w.pdf : l.coat.pdf;
+#endif
 #if VNDF_IMPL_SPECULAR
-    l.specular.lobe.pdf = d.lobe != VNDF_BSDF_LAMBERT ? d.w.pdf : l.specular.lobe.pdf;
+    int specular = d.lobe != VNDF_BSDF_LAMBERT && d.lobe != VNDF_BSDF_COAT;
+    l.specular.lobe.pdf = specular ? d.w.pdf : l.specular.lobe.pdf;
 #else
     (void)d;
 #endif
-    return vndf_impl_bsdf_density(l);
+    return vndf_impl_bsdf_all(l).pdf;
 }
 
 // What is lost: a reflection below the surface, where refractions count alone; a refraction above it, or one that is none.
@@ -178,7 +231,8 @@ VNDF_FN int vndf_impl_bsdf_lost(struct vndf_impl_bsdf_view v, struct vndf_impl_b
 // --- Public functions ---
 
 // The BSDF times |cos(theta_i)|, and the density of vndf_bsdf_sample.
-// Source: Walter et al. 2007, Equations 20 and 21, with the terms of bsdf_facets.h and bsdf_dielectric.h; Lambert's albedo / pi.
+// Source: Walter et al. 2007, Equations 20 and 21, with the terms of bsdf_facets.h and bsdf_dielectric.h; Lambert's albedo / pi, or
+//     what bsdf_rough_diffuse.h makes of it; bsdf_coat.h.
 // wo, wi: unit vectors, local frame, anywhere on the sphere.
 // return: f for each channel, pdf per steradian of wi: over the whole sphere, also where f is 0 because the surface lies
 //     between; of a material that transmits, of the lobes that light wi's side alone. Both are 0 of a refraction with ior = 1.
@@ -190,8 +244,9 @@ VNDF_FN struct vndf_bsdf_value vndf_bsdf_eval_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, 
     VNDF_REAL3 i = VNDF_MAKE3(wi.x, wi.y, v.side * wi.z);
     struct vndf_impl_bsdf_lobes l = vndf_impl_bsdf_lobes_of(v, i);
     VNDF_REAL passing = vndf_impl_bsdf_passing(v, i, vndf_impl_bsdf_crosses(l));
-    value.pdf = vndf_impl_bsdf_density(l);
-    value.f = vndf_impl_rgb_scaled(vndf_impl_rgb_scaled(vndf_impl_bsdf_weight(l), passing), value.pdf);
+    struct vndf_impl_bsdf_lobe all = vndf_impl_bsdf_all(l);
+    value.pdf = all.pdf;
+    value.f = vndf_impl_rgb_scaled(vndf_impl_rgb_scaled(all.weight, passing), all.pdf);
     return value;
 }
 
@@ -217,7 +272,7 @@ VNDF_FN VNDF_REAL vndf_bsdf_pdf(VNDF_REAL3 wo, VNDF_REAL3 wi, struct vndf_bsdf b
 // u: for the lobe's sampler, with its meaning. Each effect has random numbers of its own: none changes by one that is
 //     switched off.
 // u_lobe: which lobe, the conductor for u_lobe < metal (kulla_conty: less its diffuse share), then reflection, refraction and
-//     Lambert; of no effect where there is one lobe.
+//     Lambert, each times 1 - the coat's probability, and the coat; of no effect where there is one lobe.
 // return: the direction, anywhere on the sphere, with weight 0 where nothing goes; its density from the sampler's own terms
 //     where it is specular. With ior = 1 what is transmitted goes straight on, with the largest finite density.
 // Accuracy: 2 eps; double 2.
@@ -232,7 +287,7 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
     struct vndf_impl_bsdf_lobes l = vndf_impl_bsdf_lobes_at(v, drawn);
     VNDF_REAL passing = vndf_impl_bsdf_passing(v, i, vndf_impl_bsdf_crosses(l));
     int lost = vndf_impl_bsdf_lost(v, l, drawn);
-    d.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_weight(l), lost ? VNDF_R(0.0) : passing);
+    d.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_all(l).weight, lost ? VNDF_R(0.0) : passing);
     d.pdf = lost ? VNDF_R(0.0) : vndf_impl_bsdf_drawn_density(l, drawn);
     d.wi_x = i.x;
     d.wi_y = i.y;
@@ -262,6 +317,7 @@ VNDF_FN struct vndf_rgb vndf_bsdf_transmittance(struct vndf_bsdf bsdf, VNDF_REAL
 }
 
 #undef VNDF_IMPL_SPECULAR
+#undef VNDF_IMPL_FACETS
 #undef VNDF_IMPL_KULLA_CONTY
 #undef VNDF_IMPL_DIFFUSE
 

@@ -7,6 +7,9 @@
 #if VNDF_IMPL_DIFFUSE
 #include "bsdf_lambert.h"
 #endif
+#if VNDF_LAMBERT && VNDF_ROUGH_DIFFUSE
+#include "bsdf_rough_diffuse.h"
+#endif
 
 VNDF_BEGIN
 
@@ -38,11 +41,32 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
     VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, q, VNDF_R(1.0));
     VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, q, VNDF_R(1.0));
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
+#if VNDF_ROUGH_DIFFUSE
+    struct vndf_impl_rough_diffuse rough =
+        vndf_impl_rough_diffuse_under(v.o, i, dense, v.b.diffuse_roughness);
+    d.weight = vndf_impl_rgb_rougher(d.weight, rough, lets_out / (dense * dense), v.b.albedo);
+#endif
     d.pdf = vndf_lambert_pdf_wi(i);
     return d;
 }
 
-#elif VNDF_IMPL_KULLA_CONTY
+#else
+
+#if VNDF_LAMBERT
+// Of the surface in the open: BSDF times pi.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_albedo(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+#if VNDF_ROUGH_DIFFUSE
+    VNDF_REAL s = VNDF_FMA(v.o.x, i.x, v.o.y * i.y);
+    struct vndf_impl_rough_diffuse rough = vndf_impl_rough_diffuse_of(v.o.z, i.z, s, v.b.diffuse_roughness);
+    return vndf_impl_rgb_rougher(v.b.albedo, rough, VNDF_R(1.0), v.b.albedo);
+#else
+    (void)i;
+    return v.b.albedo;
+#endif
+}
+#endif
+
+#if VNDF_IMPL_KULLA_CONTY
 
 // Of both parts' light that of one draw.
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
@@ -52,9 +76,9 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
     VNDF_REAL rcp = VNDF_R(1.0) / (d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
     d.weight = vndf_impl_bsdf_multiple(v.b, v.multiple, i);
 #if VNDF_LAMBERT
-    d.weight =
-        vndf_impl_rgb(VNDF_FMA(other, v.b.albedo.r, d.weight.r), VNDF_FMA(other, v.b.albedo.g, d.weight.g),
-                      VNDF_FMA(other, v.b.albedo.b, d.weight.b));
+    struct vndf_rgb albedo = vndf_impl_bsdf_albedo(v, i);
+    d.weight = vndf_impl_rgb(VNDF_FMA(other, albedo.r, d.weight.r), VNDF_FMA(other, albedo.g, d.weight.g),
+                             VNDF_FMA(other, albedo.b, d.weight.b));
 #endif
     d.weight = vndf_impl_rgb_scaled(d.weight, rcp);
     d.pdf = vndf_lambert_pdf_wi(i);
@@ -66,10 +90,12 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_bsdf_lobe d;
     d.share = VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b);
-    d.weight = v.b.albedo;
+    d.weight = vndf_impl_bsdf_albedo(v, i);
     d.pdf = vndf_lambert_pdf_wi(i);
     return d;
 }
+
+#endif
 
 #endif
 

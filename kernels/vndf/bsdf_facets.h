@@ -56,6 +56,16 @@ VNDF_FN VNDF_REAL vndf_impl_facets_pdf(struct vndf_impl_facets c, VNDF_REAL3 wi)
     return vndf_beckmann_pdf_wi_lobe(c.lobe, wi);
 }
 
+// At least 0, and known when all else is.
+VNDF_FN VNDF_REAL vndf_impl_facets_seen(struct vndf_impl_facets c) {
+    return c.lobe.square.head;
+}
+// The same facets, known after a number >= 0: what is made of them LLVM's SLP pass cannot pack with what led to that.
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_after(struct vndf_impl_facets c, VNDF_REAL last) {
+    c.lobe.wo_z = last >= VNDF_R(0.0) ? c.lobe.wo_z : VNDF_R(1.0);
+    return c;
+}
+
 // G1 of another direction.
 VNDF_FN VNDF_REAL vndf_impl_facets_g1(struct vndf_impl_facets c, VNDF_REAL3 w) {
     return vndf_impl_beckmann_g1(vndf_impl_beckmann_other(c.lobe, w));
@@ -134,6 +144,29 @@ VNDF_FN VNDF_REAL vndf_impl_facets_pdf(struct vndf_impl_facets c, VNDF_REAL3 wi)
 #else
     return vndf_ggx_pdf_wi_lobe(c.lobe, wi);
 #endif
+}
+
+// At least 0, and known when all else is.
+VNDF_FN VNDF_REAL vndf_impl_facets_seen(struct vndf_impl_facets c) {
+#if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
+    return c.bound.height;
+#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+    return c.conic.twice_sigma;
+#else
+    return c.lobe.axis.height;
+#endif
+}
+// The same facets, known after a number >= 0: what is made of them LLVM's SLP pass cannot pack with what led to that.
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_after(struct vndf_impl_facets c, VNDF_REAL last) {
+    int known = last >= VNDF_R(0.0);
+#if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
+    c.bound.height = known ? c.bound.height : VNDF_R(1.0);
+#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+    c.conic.twice_sigma = known ? c.conic.twice_sigma : VNDF_R(1.0);
+#else
+    c.lobe.axis.height = known ? c.lobe.axis.height : VNDF_R(1.0);
+#endif
+    return c;
 }
 
 // The share of the visible normals that the sampler draws from: what its density has on theirs, turned over.

@@ -8,8 +8,9 @@
 
 VNDF_BEGIN
 
-// What has facets, and what is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
+// What has facets under a coat, and with it; and what is drawn by the cosine law: Lambert's reflection, Kulla and Conty's, or both at once.
 #define VNDF_IMPL_SPECULAR (VNDF_CONDUCTOR || VNDF_DIELECTRIC)
+#define VNDF_IMPL_FACETS (VNDF_IMPL_SPECULAR || VNDF_COAT)
 #define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
 #define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
 
@@ -32,6 +33,9 @@ struct vndf_bsdf {
 #endif
 #if VNDF_LAMBERT
     struct vndf_rgb albedo;
+#if VNDF_ROUGH_DIFFUSE
+    VNDF_REAL diffuse_roughness;  // of Lambert's surface, in [0, 1]; 0: Lambert's law
+#endif
 #endif
 #if VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
     VNDF_REAL metal;  // the share of the conductor, and the probability that it is sampled
@@ -53,6 +57,10 @@ struct vndf_bsdf {
     struct vndf_rgb absorption;  // what the body behind absorbs in a unit of length, >= 0
 #endif
 #endif
+#if VNDF_COAT
+    VNDF_REAL coat,
+        coat_alpha;  // how much of a coat of index 1.5 there is, in [0, 1], and its alpha, in [1e-8, 1]
+#endif
 #if VNDF_SHADING_NORMAL
     VNDF_REAL ng_x, ng_y,
         ng_z;  // the geometric normal, a unit vector in the local frame; (0, 0, 1): no other than the shading one
@@ -64,6 +72,7 @@ struct vndf_bsdf {
 #define VNDF_BSDF_LAMBERT 1     // by the cosine law: Lambert's, and of VNDF_ENERGY kulla_conty
 #define VNDF_BSDF_REFLECTION 2  // of the dielectric
 #define VNDF_BSDF_TRANSMISSION 3
+#define VNDF_BSDF_COAT 4
 
 // --- The side of the surface ---
 
@@ -108,13 +117,15 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_metal(struct vndf_bsdf b) {
 #endif
 }
 
-#if VNDF_CONDUCTOR
-
+#if VNDF_IMPL_FACETS
 // The cosine of wo and wi with the normal between them: half the length of wo + wi.
 VNDF_FN VNDF_REAL vndf_impl_half_cosine(VNDF_REAL3 wo, VNDF_REAL3 wi) {
     VNDF_REAL x = wo.x + wi.x, y = wo.y + wi.y, z = wo.z + wi.z;
     return VNDF_R(0.5) * VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));
 }
+#endif
+
+#if VNDF_CONDUCTOR
 
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
 // A parameter of the next channel, made dependent on the last one's reflectance, so that LLVM's SLP pass does not pack the alike

@@ -4,7 +4,7 @@
 
 #include "bsdf_material.h"
 #include "impl/stretch.h"
-#if VNDF_IMPL_SPECULAR
+#if VNDF_IMPL_FACETS
 #include "bsdf_facets.h"
 #endif
 #if VNDF_DIELECTRIC
@@ -15,6 +15,9 @@
 #endif
 #if VNDF_CONDUCTOR && !VNDF_CHOSEN(VNDF_ENERGY, none)
 #include "bsdf_energy.h"
+#endif
+#if VNDF_COAT
+#include "bsdf_coat.h"
 #endif
 
 VNDF_BEGIN
@@ -96,14 +99,17 @@ struct vndf_impl_bsdf_view {
     struct vndf_bsdf b;
     VNDF_REAL side;  // what turns z to the side of wo
     VNDF_REAL3 o;    // wo on that side
-#if VNDF_IMPL_SPECULAR
-    struct vndf_impl_facets facets;
+#if VNDF_IMPL_FACETS
+    struct vndf_impl_facets facets;  // of the base; the coat's where there are no others
 #endif
 #if VNDF_DIELECTRIC
     struct vndf_impl_interface media;
 #endif
 #if VNDF_IMPL_KULLA_CONTY
     struct vndf_impl_kulla_conty multiple;
+#endif
+#if VNDF_COAT
+    struct vndf_impl_coat coat;
 #endif
 };
 VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct vndf_bsdf b) {
@@ -120,6 +126,22 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
 #endif
 #if VNDF_IMPL_KULLA_CONTY
     v.multiple = vndf_impl_bsdf_kulla_conty(b, v.o);
+#endif
+#if VNDF_COAT
+#if VNDF_DIELECTRIC
+    int within = v.media.transmits && v.side < VNDF_R(0.0);
+#else
+    int within = 0;
+#endif
+#if VNDF_IMPL_SPECULAR
+    VNDF_REAL last = vndf_impl_facets_seen(v.facets);
+#else
+    VNDF_REAL last = VNDF_R(1.0);
+#endif
+    v.coat = vndf_impl_coat_of(v.o, b, within, last);
+#if !VNDF_IMPL_SPECULAR
+    v.facets = v.coat.facets;
+#endif
 #endif
     return v;
 }
@@ -164,7 +186,40 @@ struct vndf_impl_bsdf_lobe {
     VNDF_REAL share, pdf;
 };
 
-// A direction that was drawn, and from which lobe. The density is that of the specular lobes' sampler, whichever it is.
+#if VNDF_COAT
+
+// The coat's lobe: the base's specular lobe without its colours.
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_coat(struct vndf_impl_bsdf_view v, VNDF_REAL3 i,
+                                                       int crosses, VNDF_REAL last) {
+    struct vndf_impl_bsdf_lobe l;
+    struct vndf_impl_facets facets = vndf_impl_facets_after(v.coat.facets, last);
+    VNDF_REAL3 wi = VNDF_MAKE3(i.x, i.y, last >= VNDF_R(0.0) ? i.z : VNDF_R(1.0));
+    VNDF_REAL f = vndf_fresnel_dielectric(vndf_impl_half_cosine(v.o, wi), VNDF_IMPL_COAT_IOR);
+    VNDF_REAL share = v.coat.share, light = v.coat.factor * f * vndf_impl_facets_weight(facets, wi);
+    VNDF_REAL weight = light / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
+    l.weight = vndf_impl_rgb(weight, weight, weight);
+    l.share = crosses ? VNDF_R(0.0) : share;
+    l.pdf = vndf_impl_facets_pdf(facets, wi);
+    return l;
+}
+
+// The coat's facets, or the base's. Chosen by their alpha, since two samplers would be packed by LLVM's SLP pass.
+VNDF_FN struct vndf_impl_facets vndf_impl_bsdf_chosen_facets(struct vndf_impl_bsdf_view v, int coated) {
+#if VNDF_IMPL_SPECULAR
+    VNDF_REAL2 alpha = vndf_impl_bsdf_alpha(v.b);
+    VNDF_REAL x = coated ? v.coat.alpha : alpha.x, y = coated ? v.coat.alpha : alpha.y;
+    // Dependent on the coat's own, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
+    VNDF_REAL z = vndf_impl_facets_seen(v.coat.facets) >= VNDF_R(0.0) ? v.o.z : VNDF_R(1.0);
+    return vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y));
+#else
+    (void)coated;
+    return v.coat.facets;
+#endif
+}
+
+#endif
+
+// A direction that was drawn, and from which lobe. The density is that of the facets' sampler, whichever lobe it is.
 struct vndf_impl_drawn {
     struct vndf_impl_sample w;
     int lobe;

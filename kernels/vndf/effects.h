@@ -20,6 +20,8 @@
 //   VNDF_CONDUCTOR       the rough conductor; 0: every material has metal = 0
 //   VNDF_DIELECTRIC      the rough dielectric; 0: every material with metal < 1 has ior = 1 and transmission = 0
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
+//   VNDF_ROUGH_DIFFUSE   the roughness of the diffuse lobe; 0: it is 0 in every material, which is Lambert's law
+//   VNDF_COAT            a rough dielectric layer over all; 0: coat = 0 in every material
 //   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument, a number of each material that a
 //                        renderer keeps and reads, and two instructions: no time that could be told from noise
 //   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
@@ -87,6 +89,12 @@
 #endif
 #ifndef VNDF_LAMBERT
 #define VNDF_LAMBERT 1
+#endif
+#ifndef VNDF_ROUGH_DIFFUSE
+#define VNDF_ROUGH_DIFFUSE 1
+#endif
+#ifndef VNDF_COAT
+#define VNDF_COAT 1
 #endif
 #ifndef VNDF_ANISOTROPIC
 #define VNDF_ANISOTROPIC 1
@@ -164,6 +172,18 @@
 #error "clvndf: unknown VNDF_LAMBERT; 0 and 1 are allowed"
 #undef VNDF_LAMBERT
 #define VNDF_LAMBERT 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_ROUGH_DIFFUSE) >= 1
+#else
+#error "clvndf: unknown VNDF_ROUGH_DIFFUSE; 0 and 1 are allowed"
+#undef VNDF_ROUGH_DIFFUSE
+#define VNDF_ROUGH_DIFFUSE 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_COAT) >= 1
+#else
+#error "clvndf: unknown VNDF_COAT; 0 and 1 are allowed"
+#undef VNDF_COAT
+#define VNDF_COAT 1
 #endif
 #if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_ANISOTROPIC) >= 1
 #else

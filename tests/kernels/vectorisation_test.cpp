@@ -150,7 +150,8 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
           "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin",
           "all,energy=kulla_conty,fresnel=conductor", "all,energy=kulla_conty,sampling=conic",
           "all,energy=kulla_conty,sampling=conic,fresnel=conductor",
-          "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82"})
+          "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82", "lambert,rough_diffuse",
+          "lambert,coat", "conductor,coat", "dielectric,coat,ndf=beckmann"})
         CHECK(not_vectorised_with(parse_effects(list)) == "");
 }
 

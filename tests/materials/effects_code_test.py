@@ -74,10 +74,11 @@ def variants():
 def faults(switches, code):
     """What stands in the program and should not, or should and does not."""
     conductor = switches.get("CONDUCTOR", 1)
-    facets = conductor or switches.get("DIELECTRIC", 1)
+    specular = conductor or switches.get("DIELECTRIC", 1)
+    facets = specular or switches.get("COAT", 1)
     for effect, marks in effects().items():
         on = switches.get(effect, 1)
-        needs = {"ANISOTROPIC": facets, "TINT": conductor, "ABSORPTION": switches.get("DIELECTRIC", 1),
+        needs = {"ROUGH_DIFFUSE": switches.get("LAMBERT", 1), "ANISOTROPIC": specular, "TINT": conductor, "ABSORPTION": switches.get("DIELECTRIC", 1),
                  "DISPERSION": switches.get("DIELECTRIC", 1), "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
         for word in marks:
             if word == "lambert" and conductor and switches["ENERGY"] == "kulla_conty":
@@ -89,7 +90,7 @@ def faults(switches, code):
     for choice, values in VALUES.items():
         for value, words in values.items():
             for word in words:
-                needed = conductor if choice == "FRESNEL" else facets
+                needed = conductor if choice in ("FRESNEL", "ENERGY") else facets
                 if holds(code, word) != bool(needed and switches[choice] == value):
                     yield f"{choice}={switches[choice]}: {word} {'stands' if holds(code, word) else 'is missing'}"
 

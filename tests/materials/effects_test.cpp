@@ -83,6 +83,9 @@ class Inputs {
         material.push_back(std::floor(any(0, 3)));
         for (int c = 0; c < 3; ++c)
             material.push_back(has(off_, "ABSORPTION") || has(off_, "DIELECTRIC") ? 0 : part());
+        material.push_back(has(off_, "ROUGH_DIFFUSE") ? 0 : part());
+        material.push_back(has(off_, "COAT") ? 0 : part());
+        material.push_back(alpha());
         for (const float x : ng) material.push_back(x);
         const double u1 = part(), u2 = part(), u_lobe = part();
         put(evaluated_, {wo[0], wo[1], wo[2], wi[0], wi[1], wi[2]}, material);
@@ -151,8 +154,9 @@ std::vector<std::string> all_choices() {
     return all;
 }
 
-const Off front_conductor{"ABSORPTION", "DISPERSION",  "DIELECTRIC",     "LAMBERT",   "ANISOTROPIC",
-                          "TINT",       "BACK_FACING", "SHADING_NORMAL", "TERMINATOR"};
+const Off front_conductor{"ABSORPTION",    "DISPERSION",     "DIELECTRIC",  "LAMBERT",
+                          "ROUGH_DIFFUSE", "COAT",           "ANISOTROPIC", "TINT",
+                          "BACK_FACING",   "SHADING_NORMAL", "TERMINATOR"};
 
 }  // namespace
 

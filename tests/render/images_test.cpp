@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "error.h"
+#include "render/gltf.h"
 #include "scenes.h"
 
 using namespace vndf;
@@ -209,6 +210,78 @@ TEST_CASE("glass with a dispersion is Fresnel's for each channel, and takes no l
 TEST_CASE("a white ball under smooth plastic reflects what there is") {
     Rendered r = rendered(floor_of(render::plastic({1, 1, 1}, 1e-3f), 0.7), 32, 32, 64 * effort());
     CHECK(mean(r.image()) == Catch::Approx(1).epsilon(0).margin(3e-3));
+}
+
+TEST_CASE("what shines by itself is as bright as it is said to be, and lights what is beside it") {
+    render::Material lamp = render::lambert({0, 0, 0});
+    lamp.emission = {2, 0.5f, 0.25f};
+    Rendered r = rendered(floor_of(lamp, 0.4), 8, 8, 4);
+    r.scene.sky = render::constant_sky(0);
+    const render::Image image = r.image();
+    for (int c = 0; c < 3; ++c) CHECK(image.pixels[c] == lamp.emission[c]);
+    // Of a floor in the middle of a great lamp that is all the sky it sees.
+    render::Scene scene = floor_of(render::lambert({0.5f, 0.5f, 0.5f}), 0.4);
+    scene.sky = render::constant_sky(0);
+    render::Material shell = render::lambert({0, 0, 0});
+    shell.emission = {1, 1, 1};
+    scene.add_sphere({0, 0, 0}, 300, 64, shell);
+    CHECK(mean(rendered(scene, 16, 16, 64 * effort()).image()) == Catch::Approx(0.5).epsilon(0).margin(2e-3));
+}
+
+TEST_CASE("a material of glTF is the renderer's by the formulas of its extensions") {
+    render::GltfMaterial gltf;
+    gltf.base_colour = {0.2f, 0.4f, 0.6f};
+    gltf.metallic = 0.25f, gltf.roughness = 0.5f, gltf.anisotropy = 0.6f;
+    gltf.clearcoat = 0.75f, gltf.clearcoat_roughness = 0.2f;
+    gltf.emissive = {1, 0.5f, 0}, gltf.emissive_strength = 4;
+    const render::Material m = render::material_of(gltf);
+    CHECK(m.alpha_y == 0.25f);
+    CHECK(m.alpha_x == Catch::Approx(0.25 + 0.75 * 0.36));
+    CHECK(m.metal == 0.25f);
+    CHECK(m.ior == 1.5f);
+    CHECK((m.first == gltf.base_colour && m.albedo == gltf.base_colour));
+    CHECK(m.coat == 0.75f);
+    CHECK(m.coat_alpha == Catch::Approx(0.04));
+    CHECK(m.emission == render::Vec{4, 2, 0});
+    // Half of the reflectance at normal incidence, and none.
+    gltf.specular = 0.5f;
+    const float index = render::material_of(gltf).ior;
+    CHECK(std::pow((index - 1) / (index + 1), 2) == Catch::Approx(0.02));
+    gltf.specular = 0;
+    CHECK(render::material_of(gltf).ior == 1);
+    gltf.specular = 1, gltf.specular_colour = {1e6f, 1, 1};
+    CHECK(render::material_of(gltf).ior == 1000);
+    gltf.transmission = 1, gltf.specular = 0;
+    CHECK(render::material_of(gltf).ior == 1.5f);
+}
+
+TEST_CASE("a white rough diffuse floor reflects everything") {
+    const render::Material white = render::rough(render::lambert({1, 1, 1}), 1);
+    CHECK(mean(rendered(floor_of(white, 1.2), 32, 32, 64 * effort()).image()) ==
+          Catch::Approx(1).epsilon(0).margin(3e-3));
+}
+
+TEST_CASE(
+    "a coat in a furnace reflects by itself what Fresnel says, and over white hardly more than there is") {
+    const double theta = 1.1, f = fresnel(std::cos(theta), 1.5);
+    const auto reflected = [&](const render::Material& base) {
+        return mean(rendered(floor_of(render::coated(base, 1, 1e-3f), theta), 32, 32, 64 * effort()).image());
+    };
+    CHECK(reflected(render::lambert({0, 0, 0})) == Catch::Approx(f).epsilon(0).margin(2e-3));
+    CHECK(reflected(mirror(1e-3f, 1e-3f)) == Catch::Approx(1).epsilon(0).margin(3e-3));
+    const double white = reflected(render::lambert({1, 1, 1}));
+    CHECK(white <= 1.002);
+    CHECK(white >= 0.94);
+}
+
+TEST_CASE("without a coat and roughness a picture is the same to the bit, with their effects or without") {
+    Rendered r = rendered(render::orbs("coat"), 48, 20, 4);
+    for (render::Material& m : r.scene.materials) m.coat = m.diffuse_roughness = 0;
+    const render::Image lean = r.image();
+    r.effects = "all";
+    CHECK(r.image().pixels == lean.pixels);
+    r.scene.materials[0].coat = 1;
+    CHECK(r.image().pixels != lean.pixels);
 }
 
 TEST_CASE("a furnace never gives more than it gets") {

@@ -1,0 +1,27 @@
+// A material of glTF 2.0 as the renderer's.
+#pragma once
+
+#include "render/scene.h"
+
+namespace vndf::render {
+
+// The metallic-roughness material with KHR_materials_specular, _ior, _transmission, _clearcoat, _anisotropy and
+// _emissive_strength: factors at a point, textures multiplied in, each as glTF defines it.
+struct GltfMaterial {
+    Vec base_colour{1, 1, 1};
+    float metallic = 1, roughness = 1;
+    Vec emissive{};
+    float emissive_strength = 1;
+    float ior = 1.5f, transmission = 0;
+    float specular = 1;
+    Vec specular_colour{1, 1, 1};
+    float clearcoat = 0, clearcoat_roughness = 0;
+    float anisotropy = 0;  // strength; its rotation is the tangent's
+};
+
+// alpha is the square of a roughness. What is not exact: a specular factor and colour count by the reflectance at normal incidence
+// of the brightest channel, as another index, so that grazing light is reflected all the same; on a surface that transmits, where
+// the index bends light, they do not count. An ior of 0, which glTF has for a reflectance of 1, is the largest index.
+Material material_of(const GltfMaterial& gltf);
+
+}  // namespace vndf::render
