@@ -473,11 +473,11 @@ Findings check_reciprocity(const Choice& choice, const BsdfProgram& program, std
 // --- Integrals over the sphere: theta and phi in bins of many midpoints ---
 
 struct Grid {
-    static constexpr int theta = 24, phi = 48, fine = 8;
+    static constexpr int theta = 24, phi = 48;
     std::vector<Vector> node;
     std::vector<double> weight;
     std::vector<int> bin;
-    Grid() {
+    explicit Grid(int fine) {
         const double step_t = pi / (theta * fine), step_p = 2 * pi / (phi * fine);
         for (int t = 0; t < theta * fine; ++t)
             for (int p = 0; p < phi * fine; ++p) {
@@ -494,9 +494,10 @@ struct Grid {
         return std::min(t, theta - 1) * phi + std::min(p, phi - 1);
     }
 };
-const Grid& grid() {
-    static const Grid all;
-    return all;
+// What a sum over midpoints is off by must not be seen beside the noise of so many samples.
+const Grid& grid_for(std::size_t samples) {
+    static const Grid coarse(8), fine(16);
+    return samples <= 1 << 16 ? coarse : fine;
 }
 
 struct Lobe {
@@ -539,6 +540,7 @@ const std::vector<Lobe>& lobes() {
 Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std::vector<Lobe>& lobes,
                      std::size_t samples) {
     const double rate = conformance::sidak(1e-6, lobes.size());
+    const Grid& grid = grid_for(samples);
     Found chi2{"chi2 of the directions", 0, 1, {}};
     Worst furnace("furnace", 1.002), kept("all light kept", .03), mean("mean weight", 6.5),
         lost("samples without weight", 6.5), closed("closed form at alpha = 1", 2e-3);
@@ -560,12 +562,12 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
         // What is expected of each bin, and of the whole.
         const View view(choice.model, row.material, row.wo, reference::Precision::f32);
         std::vector<double> expected(Grid::theta * Grid::phi);
-        std::vector<Row> nodes(grid().node.size(), row);
-        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].wi = grid().node[i];
+        std::vector<Row> nodes(grid.node.size(), row);
+        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].wi = grid.node[i];
         const auto losses = losses_of(choice, program.real(), nodes);
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            expected[grid().bin[i]] +=
-                view(grid().node[i], losses[i]).pdf * grid().weight[i] * static_cast<double>(samples);
+            expected[grid.bin[i]] +=
+                view(grid.node[i], losses[i]).pdf * grid.weight[i] * static_cast<double>(samples);
         const double total = std::accumulate(expected.begin(), expected.end(), 0.);
         // Of light that crosses the surface, reflections below it and refractions above are lost.
         const bool loses = lobe.transmission > 0 && lobe.metal < 1;
@@ -575,7 +577,7 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
             return in_importance(choice, row, loses && wi.z * row.wo.z < 0 ? 3 : 0);
         };
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            albedo += values[0][i] * grid().weight[i] * scale(grid().node[i]);
+            albedo += values[0][i] * grid.weight[i] * scale(grid.node[i]);
 
         std::vector<Row> rows(samples, row);
         Draw draw(9);
