@@ -23,7 +23,7 @@
 //   VNDF_ROUGH_DIFFUSE   the roughness of the diffuse lobe; 0: it is 0 in every material, which is Lambert's law
 //   VNDF_COAT            a rough dielectric layer over all; 0: coat = 0 in every material
 //   VNDF_ANISOTROPIC     alpha_y; 0: alpha_y = alpha_x in every material. It saves the argument, a number of each material that a
-//                        renderer keeps and reads, and two instructions: no time that could be told from noise
+//                        renderer keeps and reads, and two or three instructions: no time that could be told from noise
 //   VNDF_TINT            factors on the conductor and on what is transmitted; 0: every tint and transmittance is 1
 //   VNDF_ABSORPTION      what the body behind a surface absorbs of light on its way through; 0: nothing. vndf_bsdf_transmittance alone
 //                        asks for it
