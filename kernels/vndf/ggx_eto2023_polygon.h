@@ -65,7 +65,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_eto2023_polygon(struct vndf_ggx_lo
 // u: u.x the azimuth of the cap, u.y its height.
 // return: unit vector wi, with density vndf_ggx_pdf_wi_eto2023_polygon(wo, wi, alpha). It may still fall below the
 //     horizon: give it no weight there. For reflection alone: refraction needs a plain visible normal.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 1.25 behind the surface; double 2, 1.25.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_eto2023_polygon(vndf_ggx_lobe_of(wo, alpha), u));
 }
@@ -77,7 +77,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_eto2023_polygon_with_pdf(VNDF_REAL3 wo, VN
 }
 
 // The same for many u and one wo and alpha.
-// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 2 behind the surface; double 2, 2.
+// Accuracy: angle to the exact map, 99th percentile: 2 eps (1 + condition number), 1.25 behind the surface; double 2, 1.25.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wi_eto2023_polygon_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_eto2023_polygon(lobe, u));
 }

@@ -54,7 +54,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(struct vndf_ggx_lobe v, 
 // alpha: in [1e-8, 1e3] each.
 // u: u.x the azimuth of the disc, u.y its squared radius.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
-// Accuracy: angle to the exact map, 99th percentile: 1.25 eps (1 + condition number), 2 behind the surface; double 1.25, 2.
+// Accuracy: angle to the exact map, 99th percentile: 1.25 eps (1 + condition number), 1.5 behind the surface; double 1.25, 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2018(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz2018(vndf_ggx_lobe_of(wo, alpha), u));
 }
@@ -65,7 +65,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz2018_with_pdf(VNDF_REAL3 wo, VNDF_REA
 }
 
 // The same for many u and one wo and alpha.
-// Accuracy: angle to the exact map, 99th percentile: 1.25 eps (1 + condition number), 2 behind the surface; double 1.25, 2.
+// Accuracy: angle to the exact map, 99th percentile: 1.25 eps (1 + condition number), 1.5 behind the surface; double 1.25, 1.5.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz2018_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz2018(lobe, u));
 }

@@ -80,7 +80,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(struct vndf_ggx_lob
 // alpha: in [1e-8, 1e3] each.
 // u: u.x the slope in the plane of incidence, u.y the one across.
 // return: unit vector wm, wm.z >= 0. vndf_ggx_pdf_wm is only near its density: the _with_pdf form has it.
-// Accuracy: angle to the published map, 99th percentile: 1.5 eps (1 + condition number); double 1.5.
+// Accuracy: angle to the published map, 99th percentile: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014(vndf_ggx_lobe_of(wo, alpha), u));
 }
@@ -91,7 +91,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_with_pdf(VNDF_REAL3 wo, VND
 }
 
 // The same for many u and one wo and alpha.
-// Accuracy: angle to the published map, 99th percentile: 1.5 eps (1 + condition number); double 1.5.
+// Accuracy: angle to the published map, 99th percentile: 1 eps (1 + condition number); double 1.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014(lobe, u));
 }
@@ -106,7 +106,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_lobe_with_pdf(struct vndf_g
 //     is visible: a unit vector on the horizon with density 0.
 // alpha, u: as above.
 // return: unit vector wm, wm.z >= 0, with density vndf_ggx_pdf_wm(wo, wm, alpha).
-// Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number), 2 behind the surface; double 1.5, 2.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1.25 behind the surface; double 1, 1.25.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_exact(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(vndf_ggx_lobe_of(wo, alpha), u));
 }
@@ -118,7 +118,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wm_heitz_deon2014_exact_with_pdf(VNDF_REAL3 w
 }
 
 // The same for many u and one wo and alpha.
-// Accuracy: angle to the exact map, 99th percentile: 1.5 eps (1 + condition number), 2 behind the surface; double 1.5, 2.
+// Accuracy: angle to the exact map, 99th percentile: 1 eps (1 + condition number), 1.25 behind the surface; double 1, 1.25.
 VNDF_FN VNDF_REAL3 vndf_ggx_sample_wm_heitz_deon2014_exact_lobe(struct vndf_ggx_lobe lobe, VNDF_REAL2 u) {
     return vndf_impl_direction(vndf_impl_ggx_heitz_deon2014_exact(lobe, u));
 }
