@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 // An odd number of groups: arrays that begin at one place of a page fall into one set of the cache.
 constexpr std::size_t groups = 13, items = groups * runtime::group_size, launched = 1 << 18;
-constexpr std::size_t inputs = 32, outputs = 8;
+constexpr std::size_t inputs = 37, outputs = 8;
 
 EffectCost cost_of(const std::string& program, const std::string& list) {
     EffectCost cost;
@@ -68,7 +68,8 @@ void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
         columns[1][i] = static_cast<float>(r * std::sin(phi));
         columns[6][i] = static_cast<float>(std::exp(-7 * draw.uniform())), columns[7][i] = columns[6][i];
         columns[21][i] += 1;  // the index
-        columns[29][i] = columns[30][i] = .1f, columns[31][i] = .99f;
+        columns[27][i] = std::floor(3 * columns[27][i]);  // the channel
+        columns[34][i] = columns[35][i] = .1f, columns[36][i] = .99f;
     }
     for (std::size_t c = 0; c < inputs; ++c)
         program.queue().enqueueWriteBuffer(buffers[c], CL_TRUE, 0, items * sizeof(float), columns[c].data());

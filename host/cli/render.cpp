@@ -218,10 +218,11 @@ void add_render(CLI::App& app, Common& common) {
     command->add_option("--orbs", r->orbs, "what the orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
         ->capture_default_str();
-    choice("--sky", r->sky,
-           "day: blue, with a sun; to compare with others, white: as bright everywhere, and sunlit: white with\n"
-           "the day's sun",
-           {"day", "white", "sunlit"});
+    choice(
+        "--sky", r->sky,
+        "day: blue, with a sun; to compare with others, white: as bright everywhere, and sunlit: white with\n"
+        "the day's sun",
+        {"day", "white", "sunlit"});
     add_device(*command, r->device);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }

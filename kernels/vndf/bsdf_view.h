@@ -210,7 +210,11 @@ VNDF_FN struct vndf_impl_facets vndf_impl_bsdf_chosen_facets(struct vndf_impl_bs
     VNDF_REAL x = coated ? v.coat.alpha : alpha.x, y = coated ? v.coat.alpha : alpha.y;
     // Dependent on the coat's own, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
     VNDF_REAL z = vndf_impl_facets_seen(v.coat.facets) >= VNDF_R(0.0) ? v.o.z : VNDF_R(1.0);
-    return vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y));
+    struct vndf_impl_facets facets = vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y));
+#if VNDF_DIELECTRIC
+    facets = vndf_impl_facets_plain(facets, v.media.by_normal && !coated);
+#endif
+    return facets;
 #else
     (void)coated;
     return v.coat.facets;

@@ -197,9 +197,9 @@ TEST_CASE("an alpha beyond its range counts as the end of the range") {
 
 TEST_CASE("a reflection has the same value, and its densities change places, with wo and wi exchanged") {
     for (const Real real : reals)
-        for (const char* name : {"vndf_ggx_eval_pdf", "vndf_ggx_eval_pdf_lobe", "vndf_ggx_pdf_wi_both",
-                                 "vndf_ggx_pdf_wi_both_lobe", "vndf_beckmann_pdf_wi_both",
-                                 "vndf_beckmann_pdf_wi_both_lobe"}) {
+        for (const char* name :
+             {"vndf_ggx_eval_pdf", "vndf_ggx_eval_pdf_lobe", "vndf_ggx_pdf_wi_both",
+              "vndf_ggx_pdf_wi_both_lobe", "vndf_beckmann_pdf_wi_both", "vndf_beckmann_pdf_wi_both_lobe"}) {
             const Function& pair = *find_function(name);
             const Table rows = digest_inputs(pair, std::size_t{1} << 14, real);
             const auto one = evaluate_on_host(real, name, rows),

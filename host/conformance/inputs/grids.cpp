@@ -284,18 +284,18 @@ std::vector<Point> level_points() {
     return points;
 }
 
-// The last slopes of Beckmann's in the plane of incidence, with a u2 next to where the map of 2014 turns them around.
+// Of Beckmann's slopes in the plane of incidence some that are next to the edge a, with a u2 as far as the rounding of a from
+// where the map of 2014 turns them around.
 std::vector<Point> folded_points() {
     std::vector<Point> points;
-    for (const double cos_theta : {.2, .5, .9})
-        for (const double part : {.4, .6, .8, 1.3})
-            for (const double last : {0x1p-22, 0x1p-24}) {
-                const double alpha = .5, a = cos_theta / (alpha * std::sqrt(1 - cos_theta * cos_theta));
-                const double area = (a * (1 + std::erf(a)) + std::exp(-a * a) / std::sqrt(pi)) / 2;
-                const double gap = std::sqrt(pi) * last * area / a * std::exp(a * a);
-                points.push_back(make_point(direction(cos_theta, .7), {alpha, alpha}, {1, 0}, {0, 0, 1},
-                                            {1 - last, part * gap / (2 * a)}, 1.5));
-            }
+    for (int k = 0; k < 12; ++k)
+        for (const double rounding : {-1.2e-7, -7e-8, 7e-8, 1.2e-7}) {
+            const double alpha = .5, last = 0x1p-20, a = .52 + .02 * k, cot = a * alpha;
+            const double area = (a * (1 + std::erf(a)) + std::exp(-a * a) / std::sqrt(pi)) / 2;
+            const double gap = std::sqrt(pi) * last * area / a * std::exp(a * a);
+            points.push_back(make_point(direction(cot / std::sqrt(1 + cot * cot), .7), {alpha, alpha}, {1, 0},
+                                        {0, 0, 1}, {1 - last, (gap + rounding) / (2 * a)}, 1.5));
+        }
     return points;
 }
 
