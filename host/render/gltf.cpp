@@ -29,6 +29,9 @@ Material material_of(const GltfMaterial& gltf) {
     const float brightest = *std::max_element(gltf.specular_colour.begin(), gltf.specular_colour.end());
     m.ior = index_of(gltf.ior, gltf.transmission > 0 ? 1 : gltf.specular * brightest);
     m.transmission = gltf.transmission;
+    m.dispersion = gltf.dispersion;
+    if (std::isfinite(gltf.attenuation_distance))
+        m = tinted(m, gltf.attenuation_colour, gltf.attenuation_distance);
     m.coat = gltf.clearcoat;
     m.coat_alpha = gltf.clearcoat_roughness * gltf.clearcoat_roughness;
     for (int c = 0; c < 3; ++c) m.emission[c] = gltf.emissive[c] * gltf.emissive_strength;

@@ -1,18 +1,22 @@
 // A material of glTF 2.0 as the renderer's.
 #pragma once
 
+#include <limits>
+
 #include "render/scene.h"
 
 namespace vndf::render {
 
-// The metallic-roughness material with KHR_materials_specular, _ior, _transmission, _clearcoat, _anisotropy and
-// _emissive_strength: factors at a point, textures multiplied in, each as glTF defines it.
+// The metallic-roughness material with KHR_materials_specular, _ior, _transmission, _volume, _dispersion, _clearcoat, _anisotropy
+// and _emissive_strength: factors at a point, textures multiplied in, each as glTF defines it.
 struct GltfMaterial {
     Vec base_colour{1, 1, 1};
     float metallic = 1, roughness = 1;
     Vec emissive{};
     float emissive_strength = 1;
-    float ior = 1.5f, transmission = 0;
+    float ior = 1.5f, transmission = 0, dispersion = 0;
+    Vec attenuation_colour{1, 1, 1};
+    float attenuation_distance = std::numeric_limits<float>::infinity();
     float specular = 1;
     Vec specular_colour{1, 1, 1};
     float clearcoat = 0, clearcoat_roughness = 0;

@@ -51,6 +51,12 @@ class Ordinary {
                 values.push_back(uniform(.4, 2.5));
             else if (name == "k")
                 values.push_back(uniform(0, 8));
+            else if (name == "distance" || name == "sigma")
+                values.push_back(uniform(0, 8));
+            else if (name == "dispersion")
+                values.push_back(uniform(0, 1));
+            else if (name == "wavelength")
+                values.push_back(uniform(380, 780));
             else if (name == "f0" || name == "f90" || name == "tint")
                 values.push_back(uniform(0, 1));
             else if (name.rfind("cos_theta", 0) == 0 || name == "wo_dot_wm")

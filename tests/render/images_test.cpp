@@ -245,6 +245,15 @@ TEST_CASE("a material of glTF is the renderer's by the formulas of its extension
     CHECK(m.emission == render::Vec{4, 2, 0});
     // Half of the reflectance at normal incidence, and none.
     gltf.specular = 0.5f;
+    gltf.dispersion = .2f;
+    CHECK(render::material_of(gltf).absorption == render::Vec{0, 0, 0});
+    gltf.attenuation_colour = {.5f, 1, .25f};
+    gltf.attenuation_distance = 2;
+    const render::Material body = render::material_of(gltf);
+    CHECK(body.dispersion == .2f);
+    CHECK(body.absorption[0] == Catch::Approx(std::log(2) / 2));
+    CHECK(body.absorption[1] == 0);
+    CHECK(body.absorption[2] == Catch::Approx(std::log(2)));
     const float index = render::material_of(gltf).ior;
     CHECK(std::pow((index - 1) / (index + 1), 2) == Catch::Approx(0.02));
     gltf.specular = 0;
