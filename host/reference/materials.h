@@ -289,12 +289,13 @@ class MaterialView {
         p_.ior = within<R>(p.ior, R(1e-3), 1000);
         inside_ = behind_ && transmits();
         media_ = inside_ ? Interface<R>{p_.ior, 1} : Interface<R>{1, p_.ior};
-        // From the denser side bounded and conic sampling are plain.
-        if (transmits() && media_.there < media_.here) model_.sampling = MaterialModel::Sampling::plain;
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         p_.diffuse_roughness = within<R>(p.diffuse_roughness, 0, 1);
         p_.coat = within<R>(p.coat, 0, 1), p_.coat_alpha = within<R>(p.coat_alpha, least, 1);
-        base_ = facets(p_.alpha_x, p_.alpha_y), coat_ = facets(p_.coat_alpha, p_.coat_alpha);
+        // From the denser side of what transmits bounded and conic sampling are plain.
+        const bool denser = transmits() && media_.there < media_.here;
+        base_ = facets(p_.alpha_x, p_.alpha_y, denser ? MaterialModel::Sampling::plain : model.sampling);
+        coat_ = facets(p_.coat_alpha, p_.coat_alpha, model.sampling);
         if (model.energy == MaterialModel::Energy::kulla_conty)
             for (int c = 0; c < 3; ++c)
                 average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
@@ -314,11 +315,13 @@ class MaterialView {
         View<R> view;
         Bound<R> bound;
         R visible;
+        MaterialModel::Sampling sampling;
     };
-    Facets facets(const R& alpha_x, const R& alpha_y) const {
+    Facets facets(const R& alpha_x, const R& alpha_y, MaterialModel::Sampling sampling) const {
         const View<R> seen = view(wo_, alpha_x, alpha_y);
-        const bool conic = wo_.z > 0 && model_.sampling == MaterialModel::Sampling::conic;
-        return {alpha_x, alpha_y, seen, reference::bound(seen, wo_), conic ? ggx_sigma_visible(seen) : R(0)};
+        const bool conic = wo_.z > 0 && sampling == MaterialModel::Sampling::conic;
+        return {alpha_x, alpha_y, seen, reference::bound(seen, wo_), conic ? ggx_sigma_visible(seen) : R(0),
+                sampling};
     }
     bool crosses(const Vec3<R>& wi) const { return transmits() && wi.z < 0; }
 
@@ -429,7 +432,7 @@ class MaterialView {
         return value;
     }
 
-    bool by_normal() const { return model_.sampling == MaterialModel::Sampling::plain; }
+    bool by_normal() const { return base_.sampling == MaterialModel::Sampling::plain; }
     bool transmits() const { return p_.transmission > 0 && p_.metal < 1; }
 
     // --- Above the surface ---
@@ -571,7 +574,7 @@ class MaterialView {
     // A height is a sum of rounded products, and next to the edge of the bounded cap its density is any of two.
     bool settled(const Facets& f, const Vec3<R>& wi, const R& height_o, const R& height_i) const {
         if (level(height_o) || level(height_i)) return false;
-        if (model_.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
+        if (f.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
         const Margin<R> margin = eto_margin(wo_, wi, f.view, f.bound);
         return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
     }
@@ -651,9 +654,9 @@ class MaterialView {
         if (model_.ndf == MaterialModel::Ndf::beckmann)
             return pdf_wi<Beckmann, R>(wo_, wi, f.alpha_x, f.alpha_y);
         const bool front = wo_.z > 0;
-        if (front && model_.sampling == MaterialModel::Sampling::bounded)
+        if (front && f.sampling == MaterialModel::Sampling::bounded)
             return ggx_pdf_wi_bounded(wo_, wi, f.view, f.bound, precision_);
-        if (front && model_.sampling == MaterialModel::Sampling::conic) {
+        if (front && f.sampling == MaterialModel::Sampling::conic) {
             const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
             return wi.z > 0 ? R(Ggx::ndf(h, f.alpha_x, f.alpha_y) / (4 * f.visible)) : R(0);
         }

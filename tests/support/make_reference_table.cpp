@@ -802,6 +802,14 @@ std::map<std::string, Evaluation> evaluations() {
         const Real sine2 = (1 - in[0] * in[0]) / (in[1] * in[1]);
         return Reals{sine2 >= 1 ? Real(0) : Real(sqrt(1 - sine2))};
     };
+    // Light after a way through a medium, and its index for a colour: Cauchy's formula through Fraunhofer's lines.
+    all["vndf_transmittance"] = [](const Reals& in) { return Reals{exp(-in[0] * in[1])}; };
+    all["vndf_eta_dispersed"] = [](const Reals& in) {
+        const auto place = [](const Real& w) { return Real(1 / (w * w)); };
+        const Real c = Real(65627) / 100, d = Real(58756) / 100, f = Real(48613) / 100;
+        const Real part = (place(in[2]) - place(d)) / (place(f) - place(c));
+        return Reals{in[0] + (in[0] - 1) * in[1] / 20 * part};
+    };
     const auto schlick = [](const Real& c, const Real& f0, const Real& f90) {
         return Real(f0 + (f90 - f0) * pow(1 - c, 5));
     };
@@ -1127,6 +1135,12 @@ void materials(Table& table) {
                 table.row("vndf_fresnel_f82", {c, f0, other});
             }
     }
+    for (const double distance : {0., 1e-6, 0.3, 2., 17.})
+        for (const double sigma : {0., 1e-3, 0.7, 4.}) table.row("vndf_transmittance", {distance, sigma});
+    for (const double eta : {0.6, 1.01, 1.5, 2.42})
+        for (const double dispersion : {0., 0.36, 2.})
+            for (const double wavelength : {400., 486.13, 587.56, 656.27, 750.})
+                table.row("vndf_eta_dispersed", {eta, dispersion, wavelength});
     table.row("vndf_lambert_pdf_wi", {0.6, 0, 0.8});
     table.row("vndf_lambert_pdf_wi", {0.6, 0, -0.8});
     for (const auto& u : us)

@@ -121,7 +121,8 @@ VNDF_FN VNDF_REAL vndf_impl_log_of_share(VNDF_REAL x) {
     VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_REAL z = VNDF_AS_REAL((bits & 0x7fffff) + low) - 1.0f;
     VNDF_REAL z2 = z * z, z4 = z2 * z2, p = VNDF_IMPL_LOG1P(VNDF_IMPL_P9, VNDF_R);
-    return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z));
+    return VNDF_FMA(k, 0.69314718055994530942f, VNDF_FMA(z2, p, z)) +
+           (x - x);  // the bits of NaN are no number
 #else
     return vndf_impl_log(x);
 #endif
