@@ -67,7 +67,7 @@ void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
         columns[0][i] = static_cast<float>(r * std::cos(phi)),
         columns[1][i] = static_cast<float>(r * std::sin(phi));
         columns[6][i] = static_cast<float>(std::exp(-7 * draw.uniform())), columns[7][i] = columns[6][i];
-        columns[21][i] += 1;  // the index
+        columns[21][i] += 1;                              // the index
         columns[27][i] = std::floor(3 * columns[27][i]);  // the channel
         columns[34][i] = columns[35][i] = .1f, columns[36][i] = .99f;
     }
