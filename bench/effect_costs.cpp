@@ -47,7 +47,7 @@ void add_counts(std::vector<EffectCost>& costs) {
     const nlohmann::json counted = nlohmann::json::parse(file->text);
     for (const nlohmann::json& entry : counted.at("entries"))
         for (EffectCost& cost : costs)
-            if (cost.program == entry.at("program")) {
+            if (cost.program == entry.at("program").get<std::string>()) {
                 cost.sample = counts_of(entry.at("sample"));
                 cost.eval_pdf = counts_of(entry.at("eval_pdf"));
             }
