@@ -122,7 +122,11 @@ VNDF_FN VNDF_REAL vndf_beckmann_g2_lobe(struct vndf_beckmann_lobe lobe, VNDF_REA
 // Accuracy: 8 eps; double 12.
 VNDF_FN VNDF_REAL vndf_beckmann_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_beckmann_lobe lobe = vndf_beckmann_lobe_of(wo, alpha);
-    return vndf_impl_beckmann_g1(lobe) * vndf_impl_beckmann_g1(vndf_impl_beckmann_other(lobe, wi));
+    VNDF_REAL masked = vndf_impl_beckmann_g1(lobe);
+    // Made dependent on the other one, so that LLVM's SLP pass does not pack the two (impl/stretch.h); the other choice is never
+    // taken.
+    VNDF_REAL3 after = VNDF_MAKE3(wi.x, wi.y, masked >= VNDF_R(0.0) ? wi.z : VNDF_R(1.0));
+    return masked * vndf_impl_beckmann_g1(vndf_impl_beckmann_other(lobe, after));
 }
 
 // G2 / G1(wo) is i sigma(wo) over the sum of vndf_impl_beckmann_both.

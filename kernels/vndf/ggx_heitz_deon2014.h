@@ -35,9 +35,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_slope_normal(struct vndf_impl_inci
     VNDF_REAL along = i.slope.sin_psi * scale;
     // Products are negated, not `along`: g++ 12 makes one instruction of -fma(a, b, c), which turns -0 into 0.
     VNDF_REAL hx = VNDF_FMA(across, i.ey, -(along * i.ex)), hy = VNDF_FMA(-across, i.ex, -(along * i.ey));
-    return vndf_impl_ggx_unstretch(
-        hx, hy, i.slope.cos_psi * scale, i.alpha_x, i.alpha_y,
-        i.sqrt_p > VNDF_R(0.0) ? weight * i.slope.visible / i.sqrt_p : VNDF_R(0.0));
+    // Made dependent on hy, which is a number, so that LLVM's SLP pass does not pack this quotient with another one.
+    VNDF_REAL visible = hy <= VNDF_REAL_MAX ? i.slope.visible : VNDF_R(1.0);
+    return vndf_impl_ggx_unstretch(hx, hy, i.slope.cos_psi * scale, i.alpha_x, i.alpha_y,
+                                   i.sqrt_p > VNDF_R(0.0) ? weight * visible / i.sqrt_p : VNDF_R(0.0));
 }
 
 // The conditional distribution of z = tan(lambda) has the tail (eta - sin eta) / (2 pi), eta = pi - 2
