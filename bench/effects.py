@@ -9,7 +9,6 @@ counts beside the times. --minimal compares the smallest program with bench/effe
 switches, and fails where it has more than 2 % more instructions, or where that would not be noticed of a program with one effect
 too many. Needs clang; sm_80 CUDA's ptxas and libdevice, and is left out without. Exit status 77 without clang.
 """
-import json
 import pathlib
 import re
 import shutil
@@ -87,14 +86,11 @@ def counts(clang, switches):
 
 
 def compilers(clang):
-    found = [instructions.output(clang, "--version").split("\n")[0]]
-    if sm_80(clang, code(dict(variants())["conductor alone"])):
-        found.append("ptxas " + re.search(r"V[\d.]+", instructions.output(instructions.CUDA / "bin/ptxas", "--version"))[0])
-    return found
+    return instructions.compilers(clang, sm_80(clang, code(dict(variants())["conductor alone"])))
 
 
 def newest_clang():
-    clang = next(filter(shutil.which, (f"clang-{version}" for version in range(21, 13, -1))), "clang")
+    clang = instructions.newest_clang()
     if not shutil.which(clang):
         print("no clang", file=sys.stderr)
         sys.exit(77)
@@ -117,8 +113,8 @@ def main():
     clang = newest_clang()
     if "--minimal" in sys.argv:
         sys.exit(minimal(clang))
-    lines = ",\n".join("    " + json.dumps({"program": name, **counts(clang, switches)}) for name, switches in variants())
-    print(f'{{\n  "compilers": {json.dumps(compilers(clang))},\n  "entries": [\n{lines}\n  ]\n}}')
+    found = [{"program": name, **counts(clang, switches)} for name, switches in variants()]
+    print(instructions.as_json(clang, "sm_80_slots" in found[0]["sample"], found))
 
 
 if __name__ == "__main__":

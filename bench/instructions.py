@@ -41,6 +41,23 @@ def output(*command, **options):
     return subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE, text=True, **options).stdout
 
 
+def newest_clang():
+    return next(filter(shutil.which, (f"clang-{version}" for version in range(21, 13, -1))), "clang")
+
+
+def as_json(clang, with_ptxas, entries):
+    """What was counted, an entry a line, and by which compilers."""
+    lines = ",\n".join("    " + json.dumps(entry) for entry in entries)
+    return f'{{\n  "compilers": {json.dumps(compilers(clang, with_ptxas))},\n  "entries": [\n{lines}\n  ]\n}}'
+
+
+def compilers(clang, with_ptxas):
+    found = [output(clang, "--version").split("\n")[0]]
+    if with_ptxas:
+        found.append("ptxas " + re.search(r"V[\d.]+", output(CUDA / "bin/ptxas", "--version"))[0])
+    return found
+
+
 def compiled(clang, code, *options):
     """The assembly of OpenCL C."""
     return output(clang, "-x", "cl", "-cl-std=CL1.2", "-O3", "-Xclang", "-finclude-default-header", "-I", ROOT, "-I",
@@ -106,7 +123,7 @@ def entries(clang, target):
 
 
 def main():
-    clang = next(filter(shutil.which, (f"clang-{version}" for version in range(21, 13, -1))), "clang")
+    clang = newest_clang()
     found = []
     for target, kernels in TARGETS.items():
         try:
@@ -119,11 +136,7 @@ def main():
     if not found:
         print("no clang with ptxas or rocm-device-libs", file=sys.stderr)
         sys.exit(77)
-    compilers = [output(clang, "--version").split("\n")[0]]
-    if found[0]["target"].startswith("sm_"):
-        compilers.append("ptxas " + re.search(r"V[\d.]+", output(CUDA / "bin/ptxas", "--version"))[0])
-    lines = ",\n".join("    " + json.dumps(entry) for entry in found)
-    print(f'{{\n  "compilers": {json.dumps(compilers)},\n  "entries": [\n{lines}\n  ]\n}}')
+    print(as_json(clang, found[0]["target"].startswith("sm_"), found))
 
 
 if __name__ == "__main__":
