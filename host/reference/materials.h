@@ -350,16 +350,14 @@ class MaterialView {
         value.pdf_slope = value.pdf_slope * (1 - chance) + value.pdf * own;
         value.pdf *= 1 - chance;
         if (through || inside_) return value;
-        const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+        const Vec3<R> h = half(wi);
         const R exponent = this->exponent(h, coat_), pdf = facets_pdf(coat_, wi);
         value.pdf += chance * pdf;
         value.pdf_slope += (own + 2 * chance * exponent) * pdf;
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = value.settled && settled(coat_, wi, height_o, height_i);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
-        const R mirror = p_.coat * part(wi, height_i) *
-                         (model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(coat_, h, wi)
-                                                                : mirrored<Beckmann>(coat_, h, wi));
+        const R mirror = p_.coat * part(wi, height_i) * mirrored(coat_, h, wi);
         const auto light = [&](const R& cosine) { return mirror * fresnel_dielectric<R>(cosine, R(1.5)); };
         const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, f = light(cosine);
         for (int c = 0; c < 3; ++c) {
@@ -399,17 +397,15 @@ class MaterialView {
     // Without a dielectric: energy models are of conductors.
     MaterialValue<R> compensated(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
-        const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+        const Vec3<R> h = half(wi);
         value.exponent = exponent(h);
         const R diffuse = p_.metal * diffuse_share(losses);
         value.pdf = (p_.metal - diffuse) * facets_pdf(base_, wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
-        const R fade = ng_.z > 0 ? height_i / (wi.z * ng_.z) : R(1);
-        const R passing = fade < 1 ? fade + fade * fade - fade * fade * fade : R(1);
-        const R mirror = model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(base_, h, wi)
-                                                               : mirrored<Beckmann>(base_, h, wi);
+        const R passing = part(wi, height_i);
+        const R mirror = mirrored(base_, h, wi);
         // For directions that are unit vectors but for rounding: with either the same.
         const R cosine = (dot(wo_, h) + dot(wi, h)) / 2;
         for (int c = 0; c < 3; ++c) {
@@ -439,7 +435,7 @@ class MaterialView {
 
     MaterialValue<R> reflected(const Vec3<R>& wi) const {
         MaterialValue<R> value;
-        const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+        const Vec3<R> h = half(wi);
         value.exponent = exponent(h);
         // For directions that are unit vectors but for rounding: with either the same.
         const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, mirror_pdf = facets_pdf(base_, wi),
@@ -454,8 +450,7 @@ class MaterialView {
         value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R passing = part(wi, height_i);
-        const R mirror = model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(base_, h, wi)
-                                                               : mirrored<Beckmann>(base_, h, wi);
+        const R mirror = mirrored(base_, h, wi);
         const R lets_in = 1 - media_.reflectance(wo_.z), lets_out = 1 - media_.reflectance(wi.z);
         for (int c = 0; c < 3; ++c) {
             const R scale = passing * p_.metal * p_.tint[c] * mirror, rest = passing * (1 - p_.metal);
@@ -580,9 +575,11 @@ class MaterialView {
     }
     // Between opposite directions no facet is told from another.
     bool opposite(const Vec3<R>& wi) const {
-        const Vec3<R> sum{wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z};
+        const Vec3<R> sum = sum_with(wi);
         return dot(sum, sum) < squared(256 * unit());
     }
+    Vec3<R> sum_with(const Vec3<R>& wi) const { return {wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z}; }
+    Vec3<R> half(const Vec3<R>& wi) const { return normalised<R>(sum_with(wi)); }
     bool level(const R& height) const { return std::abs(height) < 8 * unit(); }
     R unit() const { return precision_ == Precision::f32 ? R(0x1p-24) : R(0x1p-53); }
     R reflectance(int c, const R& cosine) const {
@@ -637,6 +634,9 @@ class MaterialView {
         return whole > 0 ? own / whole : R(0);
     }
     // D G2 / (4 cos(theta_o))
+    R mirrored(const Facets& f, const Vec3<R>& h, const Vec3<R>& wi) const {
+        return model_.ndf == MaterialModel::Ndf::ggx ? mirrored<Ggx>(f, h, wi) : mirrored<Beckmann>(f, h, wi);
+    }
     template <class N>
     R mirrored(const Facets& f, const Vec3<R>& h, const Vec3<R>& wi) const {
         const View<R> i = view(wi, f.alpha_x, f.alpha_y);
@@ -657,7 +657,7 @@ class MaterialView {
         if (front && f.sampling == MaterialModel::Sampling::bounded)
             return ggx_pdf_wi_bounded(wo_, wi, f.view, f.bound, precision_);
         if (front && f.sampling == MaterialModel::Sampling::conic) {
-            const Vec3<R> h = normalised<R>({wo_.x + wi.x, wo_.y + wi.y, wo_.z + wi.z});
+            const Vec3<R> h = half(wi);
             return wi.z > 0 ? R(Ggx::ndf(h, f.alpha_x, f.alpha_y) / (4 * f.visible)) : R(0);
         }
         return pdf_wi<Ggx, R>(wo_, wi, f.alpha_x, f.alpha_y);

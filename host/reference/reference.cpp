@@ -390,9 +390,14 @@ R ggx_pdf_wm_benyoub2024_of(Reader<R> in) {
 }
 
 template <class R, R (*f)(const R&, const R&)>
-R of_cosine_x(Reader<R> in) {
-    const R c = in.scalar();
-    return f(c, in.scalar());
+R of_two(Reader<R> in) {
+    const R a = in.scalar();
+    return f(a, in.scalar());
+}
+template <class R, R (*f)(const R&, const R&, const R&)>
+R of_three(Reader<R> in) {
+    const R a = in.scalar(), b = in.scalar();
+    return f(a, b, in.scalar());
 }
 template <class R>
 R ggx_slope_cdf_inverse_of(Reader<R> in) {
@@ -440,41 +445,6 @@ R jacobian_refract_of(Reader<R> in) {
     return jacobian_refract(wo, wi, in.scalar());
 }
 
-template <class R>
-R fresnel_conductor_of(Reader<R> in) {
-    const R c = in.scalar(), eta = in.scalar();
-    return fresnel_conductor(c, eta, in.scalar());
-}
-template <class R>
-R fresnel_dielectric_of(Reader<R> in) {
-    const R c = in.scalar();
-    return fresnel_dielectric(c, in.scalar());
-}
-template <class R>
-R transmitted_cosine_of(Reader<R> in) {
-    const R c = in.scalar();
-    return transmitted_cosine(c, in.scalar());
-}
-template <class R>
-R fresnel_schlick_of(Reader<R> in) {
-    const R c = in.scalar(), f0 = in.scalar();
-    return fresnel_schlick(c, f0, in.scalar());
-}
-template <class R>
-R fresnel_f82_of(Reader<R> in) {
-    const R c = in.scalar(), f0 = in.scalar();
-    return fresnel_f82(c, f0, in.scalar());
-}
-template <class R>
-R transmittance_of(Reader<R> in) {
-    const R distance = in.scalar();
-    return transmittance(distance, in.scalar());
-}
-template <class R>
-R eta_dispersed_of(Reader<R> in) {
-    const R eta = in.scalar(), dispersion = in.scalar();
-    return eta_dispersed(eta, dispersion, in.scalar());
-}
 template <class R>
 R lambert_pdf_of(Reader<R> in) {
     return lambert_pdf(in.vector());
@@ -527,19 +497,19 @@ constexpr Entry<R> entries[] = {
     {"vndf_ggx_reflection_probability", evaluate_term<R, ggx_reflection_probability_of<R>>},
     {"vndf_ggx_invert_wi_conic2026", evaluate_inverse<R>},
     {"vndf_ggx_pdf_wm_benyoub2024", evaluate_term<R, ggx_pdf_wm_benyoub2024_of<R>>},
-    {"vndf_ggx_slope_pdf", evaluate_term<R, of_cosine_x<R, ggx_slope_pdf<R>>>},
-    {"vndf_ggx_slope_cdf", evaluate_term<R, of_cosine_x<R, ggx_slope_cdf<R>>>},
+    {"vndf_ggx_slope_pdf", evaluate_term<R, of_two<R, ggx_slope_pdf<R>>>},
+    {"vndf_ggx_slope_cdf", evaluate_term<R, of_two<R, ggx_slope_cdf<R>>>},
     {"vndf_ggx_slope_cdf_inverse", evaluate_term<R, ggx_slope_cdf_inverse_of<R>>},
-    {"vndf_beckmann_slope_pdf", evaluate_term<R, of_cosine_x<R, static_cast<Slope2<R>>(beckmann_slope_pdf<R>)>>},
-    {"vndf_beckmann_slope_cdf", evaluate_term<R, of_cosine_x<R, beckmann_slope_cdf<R>>>},
+    {"vndf_beckmann_slope_pdf", evaluate_term<R, of_two<R, static_cast<Slope2<R>>(beckmann_slope_pdf<R>)>>},
+    {"vndf_beckmann_slope_cdf", evaluate_term<R, of_two<R, beckmann_slope_cdf<R>>>},
     {"vndf_beckmann_slope_cdf_inverse", evaluate_term<R, beckmann_slope_cdf_inverse_of<R>>},
-    {"vndf_fresnel_conductor", evaluate_term<R, fresnel_conductor_of<R>>},
-    {"vndf_fresnel_dielectric", evaluate_term<R, fresnel_dielectric_of<R>>},
-    {"vndf_fresnel_cos_theta_t", evaluate_term<R, transmitted_cosine_of<R>>},
-    {"vndf_fresnel_schlick", evaluate_term<R, fresnel_schlick_of<R>>},
-    {"vndf_fresnel_f82", evaluate_term<R, fresnel_f82_of<R>>},
-    {"vndf_transmittance", evaluate_term<R, transmittance_of<R>>},
-    {"vndf_eta_dispersed", evaluate_term<R, eta_dispersed_of<R>>},
+    {"vndf_fresnel_conductor", evaluate_term<R, of_three<R, fresnel_conductor<R>>>},
+    {"vndf_fresnel_dielectric", evaluate_term<R, of_two<R, fresnel_dielectric<R>>>},
+    {"vndf_fresnel_cos_theta_t", evaluate_term<R, of_two<R, transmitted_cosine<R>>>},
+    {"vndf_fresnel_schlick", evaluate_term<R, of_three<R, fresnel_schlick<R>>>},
+    {"vndf_fresnel_f82", evaluate_term<R, of_three<R, fresnel_f82<R>>>},
+    {"vndf_transmittance", evaluate_term<R, of_two<R, transmittance<R>>>},
+    {"vndf_eta_dispersed", evaluate_term<R, of_three<R, eta_dispersed<R>>>},
     {"vndf_lambert_pdf_wi", evaluate_term<R, lambert_pdf_of<R>>},
     {"vndf_lambert_sample_wi", evaluate_vector<R, lambert_direction_of<R>>},
     {"vndf_reflect", evaluate_vector<R, reflect_of<R>>},
