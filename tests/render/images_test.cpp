@@ -243,8 +243,6 @@ TEST_CASE("a material of glTF is the renderer's by the formulas of its extension
     CHECK(m.coat == 0.75f);
     CHECK(m.coat_alpha == Catch::Approx(0.04));
     CHECK(m.emission == render::Vec{4, 2, 0});
-    // Half of the reflectance at normal incidence, and none.
-    gltf.specular = 0.5f;
     gltf.dispersion = .2f;
     CHECK(render::material_of(gltf).absorption == render::Vec{0, 0, 0});
     gltf.attenuation_colour = {.5f, 1, .25f};
@@ -254,6 +252,8 @@ TEST_CASE("a material of glTF is the renderer's by the formulas of its extension
     CHECK(body.absorption[0] == Catch::Approx(std::log(2) / 2));
     CHECK(body.absorption[1] == 0);
     CHECK(body.absorption[2] == Catch::Approx(std::log(2)));
+    // Half of the reflectance at normal incidence, and none.
+    gltf.specular = 0.5f;
     const float index = render::material_of(gltf).ior;
     CHECK(std::pow((index - 1) / (index + 1), 2) == Catch::Approx(0.02));
     gltf.specular = 0;
