@@ -20,7 +20,12 @@ using Clock = std::chrono::steady_clock;
 
 // An odd number of groups: arrays that begin at one place of a page fall into one set of the cache.
 constexpr std::size_t groups = 13, items = groups * runtime::group_size, launched = 1 << 18;
-constexpr std::size_t inputs = 37, outputs = 8;
+constexpr std::size_t outputs = 8;
+
+// wo, wi or the random numbers, and the material.
+std::size_t inputs() {
+    return 6 + material_parameters().size();
+}
 
 EffectCost cost_of(const std::string& program, const std::string& list) {
     EffectCost cost;
@@ -57,21 +62,24 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Directions above the surface and materials as scenes have them; the last three are the geometric normal.
+// Directions above the surface and materials as scenes have them.
 void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
     SplitMix64 draw(1);
-    std::vector<std::vector<float>> columns(inputs, std::vector<float>(items));
+    std::vector<std::vector<float>> columns(inputs(), std::vector<float>(items));
+    const auto of = [&](const char* parameter) -> std::vector<float>& {
+        return columns[6 + material_parameter(parameter)];
+    };
     for (std::size_t i = 0; i < items; ++i) {
-        for (std::size_t c = 0; c < inputs; ++c) columns[c][i] = static_cast<float>(draw.uniform());
+        for (std::vector<float>& column : columns) column[i] = static_cast<float>(draw.uniform());
         const double z = columns[2][i], phi = 6.2831853 * draw.uniform(), r = std::sqrt(1 - z * z);
         columns[0][i] = static_cast<float>(r * std::cos(phi)),
         columns[1][i] = static_cast<float>(r * std::sin(phi));
-        columns[6][i] = static_cast<float>(std::exp(-7 * draw.uniform())), columns[7][i] = columns[6][i];
-        columns[21][i] += 1;                              // the index
-        columns[27][i] = std::floor(3 * columns[27][i]);  // the channel
-        columns[34][i] = columns[35][i] = .1f, columns[36][i] = .99f;
+        of("alpha_x")[i] = of("alpha_y")[i] = static_cast<float>(std::exp(-7 * draw.uniform()));
+        of("ior")[i] += 1;
+        of("channel")[i] = std::floor(3 * of("channel")[i]);
+        of("ng_x")[i] = of("ng_y")[i] = .1f, of("ng_z")[i] = .99f;
     }
-    for (std::size_t c = 0; c < inputs; ++c)
+    for (std::size_t c = 0; c < columns.size(); ++c)
         program.queue().enqueueWriteBuffer(buffers[c], CL_TRUE, 0, items * sizeof(float), columns[c].data());
 }
 
@@ -131,12 +139,12 @@ std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetiti
                         program.kernel("vndf_batch_bsdf_eval_pdf")};
         program.guarded("measure a material", [&] {
             if (buffers.empty()) {
-                for (std::size_t i = 0; i < inputs + outputs; ++i)
+                for (std::size_t i = 0; i < inputs() + outputs; ++i)
                     buffers.push_back(program.buffer(items * sizeof(float)));
                 fill(program, buffers);
             }
-            for (cl_uint i = 0; i < inputs + outputs; ++i) running.sample.setArg(i, buffers[i]);
-            for (cl_uint i = 0; i < inputs + 4; ++i) running.eval_pdf.setArg(i, buffers[i]);
+            for (cl_uint i = 0; i < inputs() + outputs; ++i) running.sample.setArg(i, buffers[i]);
+            for (cl_uint i = 0; i < inputs() + 4; ++i) running.eval_pdf.setArg(i, buffers[i]);
             // Some drivers compile at the first launch.
             for (const cl::Kernel* kernel : {&running.sample, &running.eval_pdf})
                 program.launch(*kernel, runtime::group_size);

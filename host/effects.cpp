@@ -1,9 +1,11 @@
 #include "effects.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "../kernels/batch/bsdf_parameters.h"
 #include "error.h"
 #include "text.h"
 
@@ -93,6 +95,20 @@ Effects parse_effects(std::string_view list) {
             "--effects '{}': nothing is left of a material; it needs conductor, dielectric or lambert",
             list));
     return chosen;
+}
+
+const std::vector<std::string>& material_parameters() {
+#define VNDF_NAME(parameter) #parameter,
+    static const std::vector<std::string> all{VNDF_BSDF_PARAMETERS(VNDF_NAME)};
+#undef VNDF_NAME
+    return all;
+}
+
+std::size_t material_parameter(std::string_view name) {
+    const std::vector<std::string>& all = material_parameters();
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found == all.end()) throw std::invalid_argument(fmt::format("no parameter {}", name));
+    return static_cast<std::size_t>(found - all.begin());
 }
 
 }  // namespace vndf

@@ -1,6 +1,7 @@
 // The switches of a material (kernels/effects.def) as C++ data, and the lists of them that users write.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
@@ -34,5 +35,10 @@ struct Effects {
 // "all", or names of effects and values of choices, in any order: "conductor,tint,fresnel=f82", "all,ndf=beckmann". What is not
 // named is off, or the default. Throws InputError on what there is not, and where no program is left.
 Effects parse_effects(std::string_view list);
+
+// The arguments of the entry points of kernels/batch/bsdf.cl that are the material, in their order.
+const std::vector<std::string>& material_parameters();
+// The place of one among them.
+std::size_t material_parameter(std::string_view name);
 
 }  // namespace vndf

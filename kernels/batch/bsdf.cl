@@ -5,23 +5,7 @@
 //   vndf_batch_bsdf_transmittance   distance, the material -> what is left of each channel
 //   vndf_batch_bsdf_sample     wo, u1, u2, u_lobe, the material -> wi, the weight for each channel, pdf, the lobe
 #include "../vndf/bsdf.h"
-
-#define VNDF_BSDF_RGB(S, c) S(c##_r) S(c##_g) S(c##_b)
-#define VNDF_BSDF_XYZ(S, v) S(v##_x) S(v##_y) S(v##_z)
-// The material: `first` and `second` are eta and k, f0 and (f90, -, -), or f0 and f82.
-#define VNDF_BSDF_PARAMETERS(S)     \
-    S(alpha_x)                      \
-    S(alpha_y)                      \
-    VNDF_BSDF_RGB(S, first)         \
-    VNDF_BSDF_RGB(S, second)        \
-    VNDF_BSDF_RGB(S, tint)          \
-    VNDF_BSDF_RGB(S, albedo)        \
-    S(metal)                        \
-    S(ior)                          \
-    S(transmission)                 \
-    VNDF_BSDF_RGB(S, transmittance) \
-    S(dispersion)                   \
-    S(channel) VNDF_BSDF_RGB(S, absorption) S(diffuse_roughness) S(coat) S(coat_alpha) VNDF_BSDF_XYZ(S, ng)
+#include "bsdf_parameters.h"
 
 #define VNDF_BSDF_IN(v) __global const VNDF_REAL *restrict in_##v,
 #define VNDF_BSDF_OUT(v) __global VNDF_REAL *restrict out_##v,

@@ -91,12 +91,6 @@ struct Claim {
 };
 const std::vector<Claim> claims{{1, 3.5e-3}, {2, .065}, {10, .13}};
 
-// Of the entry points of materials, behind the directions or the random numbers.
-std::size_t column_of(const std::string& parameter) {
-    const auto found = std::find(bsdf_parameters.begin(), bsdf_parameters.end(), parameter);
-    return 6 + (found - bsdf_parameters.begin());
-}
-
 // All light on a white conductor against what it reflects: a mean of weights, over u and the choice of the lobe.
 double reflected(const BsdfProgram& program, const Point& p) {
     constexpr int side = 256;
@@ -108,7 +102,7 @@ double reflected(const BsdfProgram& program, const Point& p) {
         in[5][i] = std::fmod(i * .6180339887498949, 1);
         in[6][i] = p.alpha_x, in[7][i] = p.alpha_y;
         in[21][i] = in[22][i] = 0;
-        in[column_of("coat")][i] = 0;
+        in[6 + material_parameter("coat")][i] = 0;
     }
     const Columns out = program.sample(in);
     double sum = 0;
@@ -225,7 +219,7 @@ Columns metal_rows(const Point& p, std::size_t count, bool walk) {
             in[c][i] = walk ? static_cast<double>(c == 3 ? i : 1) : draw.uniform();
         in[first][i] = p.alpha_x, in[first + 1][i] = p.alpha_y;
         for (int c = 0; c < 3; ++c) in[first + 2 + c][i] = metal[c][0], in[first + 5 + c][i] = metal[c][1];
-        in[column_of("coat") - 6 + first][i] = 0;
+        in[first + material_parameter("coat")][i] = 0;
         in[in.size() - 3][i] = in[in.size() - 2][i] = 0;  // ng
     }
     return in;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "effects.h"
 #include "runtime/program.h"
 
 namespace vndf {
@@ -17,38 +18,7 @@ inline std::size_t items_by_hand() {
 
 using Columns = std::vector<std::vector<double>>;
 
-// The inputs' names, in the order of kernels/batch/bsdf.cl.
-inline const std::vector<std::string> bsdf_parameters{"alpha_x",
-                                                      "alpha_y",
-                                                      "first_r",
-                                                      "first_g",
-                                                      "first_b",
-                                                      "second_r",
-                                                      "second_g",
-                                                      "second_b",
-                                                      "tint_r",
-                                                      "tint_g",
-                                                      "tint_b",
-                                                      "albedo_r",
-                                                      "albedo_g",
-                                                      "albedo_b",
-                                                      "metal",
-                                                      "ior",
-                                                      "transmission",
-                                                      "transmittance_r",
-                                                      "transmittance_g",
-                                                      "transmittance_b",
-                                                      "dispersion",
-                                                      "channel",
-                                                      "absorption_r",
-                                                      "absorption_g",
-                                                      "absorption_b",
-                                                      "diffuse_roughness",
-                                                      "coat",
-                                                      "coat_alpha",
-                                                      "ng_x",
-                                                      "ng_y",
-                                                      "ng_z"};
+inline const std::vector<std::string>& bsdf_parameters = material_parameters();
 
 class BsdfProgram {
   public:
