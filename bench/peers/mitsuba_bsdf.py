@@ -9,12 +9,10 @@ import argparse
 import itertools
 import json
 import math
-import os
 import pathlib
-import tempfile
 import time
 
-from newest_llvm import cannot, newest_llvm
+from mitsuba_and_pocl import cl, mi, np, pocl, queue
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OPTIONS = "-cl-std=CL1.2 -DVNDF_MATH=strict -cl-fp32-correctly-rounded-divide-sqrt"
@@ -23,21 +21,6 @@ SWITCHES = {"SAMPLING": "plain", "MASKING": "separable", "FRESNEL": "conductor",
 TEXELS = (250, 400)
 ROWS = TEXELS[0] * TEXELS[1]
 BEYOND = 1e-4  # what share of the inputs differs by more is told
-
-caches = tempfile.TemporaryDirectory()
-os.environ.update(DRJIT_CACHE_DIR=caches.name, POCL_CACHE_DIR=caches.name, PYOPENCL_NO_CACHE="1")
-try:
-    import numpy as np
-    import pyopencl as cl
-    os.environ.setdefault("DRJIT_LIBLLVM_PATH", newest_llvm())  # read by the next import
-    import mitsuba as mi
-    mi.set_variant("llvm_ad_mono")  # nothing is differentiated, and the wheel has no variant without _ad
-    pocl = next(platform for platform in cl.get_platforms() if "Portable" in platform.name)
-    queue = cl.CommandQueue(cl.Context(pocl.get_devices()[:1]))
-except ImportError as missing:
-    cannot(f"{str(missing).splitlines()[0]} (bench/peers/requirements.txt lists the packages)")
-except (cl.Error, StopIteration):
-    cannot("no OpenCL device of PoCL")
 
 
 def uniform(random, low, high):
@@ -70,20 +53,24 @@ class Ours:
         words = " ".join(f"-DVNDF_{name}={value}" for name, value in switches.items())
         self.type = np.float32 if real == "float" else np.float64
         self.program = cl.Program(queue.context, '#include "batch/bsdf.cl"\n').build(
-            [*OPTIONS.split(), f"-DVNDF_REAL={real}", *words.split(), "-I", str(ROOT / "kernels")])
+            [*OPTIONS.split(), "-cl-kernel-arg-info", f"-DVNDF_REAL={real}", *words.split(), "-I", str(ROOT / "kernels")])
 
     def run(self, name, first, i, outputs):
-        """An entry point of batch/bsdf.cl over columns."""
-        none = np.zeros(ROWS)
-        one = none + 1
-        material = [i.alpha_x, i.alpha_y, i.eta, i.eta, i.eta, i.k, i.k, i.k, one, one, one, none, none, none,
-                    one if i.conductor else none, i.ior, one, one, one, one, none, none, one]
-        columns = [np.ascontiguousarray(column, self.type) for column in [*first, *material]]
+        """An entry point of batch/bsdf.cl over columns: `first`, and the material by its arguments' names, 0 unless said."""
+        one, none = np.ones(ROWS), np.zeros(ROWS)
+        material = {"alpha_x": i.alpha_x, "alpha_y": i.alpha_y, "metal": one if i.conductor else none, "ior": i.ior,
+                    "transmission": one, "ng_z": one}
+        for colour, column in (("first", i.eta), ("second", i.k), ("tint", one), ("transmittance", one)):
+            material.update({f"{colour}_{channel}": column for channel in "rgb"})
+        kernel = cl.Kernel(self.program, name)
+        arguments = [kernel.get_arg_info(k, cl.kernel_arg_info.NAME) for k in range(len(first), kernel.num_args - outputs)]
+        columns = [np.ascontiguousarray(column, self.type)
+                   for column in (*first, *(material.get(argument.removeprefix("in_"), none) for argument in arguments))]
         flags = cl.mem_flags
         buffers = [cl.Buffer(queue.context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=c) for c in columns]
         results = [np.empty(ROWS, self.type) for _ in range(outputs)]
         out = [cl.Buffer(queue.context, flags.WRITE_ONLY, r.nbytes) for r in results]
-        cl.Kernel(self.program, name)(queue, (ROWS,), (32,), *buffers, *out)
+        kernel(queue, (ROWS,), (32,), *buffers, *out)
         for result, buffer in zip(results, out):
             cl.enqueue_copy(queue, result, buffer)
         return results

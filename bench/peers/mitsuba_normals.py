@@ -11,11 +11,10 @@ import os
 import pathlib
 import random
 import subprocess
-import sys
-import tempfile
 import time
 
-from newest_llvm import cannot, newest_llvm
+from mitsuba_and_pocl import cl, dr, mi, np, pocl, queue
+from newest_llvm import cannot
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OPTIONS = "-cl-std=CL1.2 -DVNDF_REAL=float -DVNDF_MATH=strict -cl-fp32-correctly-rounded-divide-sqrt"
@@ -28,23 +27,6 @@ INPUTS = ("as timed", "α 10⁻³", "α 10⁻⁵", "cos θ 10⁻⁶ to 10⁻²",
 JUDGED = 1 << 13  # samples of each of these
 IDLE_S = 0.02  # Dr.Jit's threads spin half as long after a launch, and would double the time of whoever comes next
 EPS = 2.0 ** -24
-
-
-caches = tempfile.TemporaryDirectory()  # of compilers: empty, so that first calls compile
-os.environ.update(DRJIT_CACHE_DIR=caches.name, POCL_CACHE_DIR=caches.name, PYOPENCL_NO_CACHE="1")
-try:
-    import numpy as np
-    import pyopencl as cl
-    os.environ.setdefault("DRJIT_LIBLLVM_PATH", newest_llvm())  # read by the next import
-    import mitsuba as mi
-    import drjit as dr
-    mi.set_variant("llvm_ad_mono")  # nothing is differentiated, and the wheel has no variant without _ad
-    pocl = next(platform for platform in cl.get_platforms() if "Portable" in platform.name)
-    queue = cl.CommandQueue(cl.Context(pocl.get_devices()[:1]))
-except ImportError as missing:
-    cannot(f"{str(missing).splitlines()[0]} (bench/peers/requirements.txt lists the packages)")
-except (cl.Error, StopIteration):
-    cannot("no OpenCL device of PoCL")
 
 
 def columns_of(kind, count):
