@@ -74,6 +74,17 @@ VNDF_FN float vndf_render_mis(float q_over_p) {
     return 1.0f / VNDF_FMA(ratio, ratio, 1.0f);
 }
 
+// Adds to the light of a path's pixel what it carries of this much. Items beyond the count have a slot of their own, which nobody
+// reads.
+VNDF_FN void vndf_render_add_light(struct vndf_render_vector radiance, float kept,
+                                   VNDF_RENDER_FROM(float) path, VNDF_RENDER_FROM(uint) slot, uint count,
+                                   uint stride, uint i, VNDF_RENDER_TO(float) light) {
+    const uint to = i < count ? slot[i] : stride - 1;
+    light[to] += kept * path[VNDF_PATH_RED * stride + i] * radiance.x;
+    light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] * radiance.y;
+    light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] * radiance.z;
+}
+
 VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_RENDER_IN(float) path,
                                      VNDF_RENDER_IN(uint) triangle, VNDF_RENDER_IN(uint) slot,
                                      const uint count, const uint stride, VNDF_RENDER_OUT(float) light) {
@@ -83,19 +94,15 @@ VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_REND
     const int in_sun = vndf_render_gap(sky, x, y, z) <= sky.sun_gap;
     const float pdf = vndf_render_light_pdf(sky, y, in_sun), low4 = vndf_render_low4(y);
     const float weight = vndf_render_mis(pdf / path[VNDF_PATH_PDF * stride + i]);
-    // Items beyond the count have a slot of their own, which nobody reads.
     const int left = triangle[i] == VNDF_MISS && i < count;
-    const uint to = i < count ? slot[i] : stride - 1;
-    const float kept = left ? weight : 0.0f;
-    light[to] += kept * path[VNDF_PATH_RED * stride + i] *
-                 vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4, y >= 0.0f,
-                                      sky.sun_red, in_sun);
-    light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] *
-                          vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green, low4,
-                                               y >= 0.0f, sky.sun_green, in_sun);
-    light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] *
+    const struct vndf_render_vector radiance =
+        vndf_render_vector_of(vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4,
+                                                   y >= 0.0f, sky.sun_red, in_sun),
+                              vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green,
+                                                   low4, y >= 0.0f, sky.sun_green, in_sun),
                               vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4,
-                                                   y >= 0.0f, sky.sun_blue, in_sun);
+                                                   y >= 0.0f, sky.sun_blue, in_sun));
+    vndf_render_add_light(radiance, left ? weight : 0.0f, path, slot, count, stride, i, light);
 }
 
 #endif

@@ -40,8 +40,14 @@ struct vndf_render_direction {
 struct vndf_render_row {
     uint count, number;
     float one;
-    int channel;  // that light is carried in: of a surface with a dispersion the only one
 };
+VNDF_FN struct vndf_render_row vndf_render_row_of(struct vndf_render_sizes sizes, uint number) {
+    struct vndf_render_row row;
+    row.count = sizes.materials;
+    row.number = number;
+    row.one = sizes.one;
+    return row;
+}
 
 // Three channels. LLVM would pack neighbours of which the same is computed, and PoCL then not vectorise across work-items: for
 // the compiler each is something else.
@@ -52,9 +58,10 @@ VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, st
                          row.one * (row.one * materials[(plane + 2) * row.count + row.number]));
 }
 
-// A material of the table, at a point with this geometric normal in its frame.
+// A material of the table, at a point with this geometric normal in its frame. channel: that light is carried in, of a surface
+// with a dispersion the only one.
 VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
-                                             float ng_x, float ng_y, float ng_z) {
+                                             int channel, float ng_x, float ng_y, float ng_z) {
     struct vndf_bsdf b;
 #if VNDF_CONDUCTOR || VNDF_DIELECTRIC
     b.alpha_x = materials[VNDF_MATERIAL_ALPHA_X * row.count + row.number];
@@ -93,12 +100,13 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #endif
 #if VNDF_DISPERSION
     b.dispersion = materials[VNDF_MATERIAL_DISPERSION * row.count + row.number];
-    b.channel = row.channel;
+    b.channel = channel;
 #endif
 #if VNDF_ABSORPTION
     b.absorption = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_ABSORPTION);
 #endif
 #endif
+    (void)channel;
 #if VNDF_LAMBERT && VNDF_ROUGH_DIFFUSE
     b.diffuse_roughness = materials[VNDF_MATERIAL_DIFFUSE_ROUGHNESS * row.count + row.number];
 #endif
@@ -122,12 +130,8 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 // What the body (VNDF_PATH_BODY) leaves of light after a way through it; everything outside of all.
 VNDF_FN struct vndf_rgb vndf_render_left(struct vndf_render_sizes sizes, VNDF_RENDER_FROM(float) materials,
                                          float body, float length) {
-    struct vndf_render_row row;
-    row.count = sizes.materials;
-    row.number = body > 0.0f ? (uint)(int)body - 1 : 0;
-    row.one = sizes.one;
-    row.channel = 0;
-    return vndf_bsdf_transmittance(vndf_render_bsdf_of(materials, row, 0.0f, 0.0f, 1.0f),
+    const struct vndf_render_row row = vndf_render_row_of(sizes, body > 0.0f ? (uint)(int)body - 1 : 0);
+    return vndf_bsdf_transmittance(vndf_render_bsdf_of(materials, row, 0, 0.0f, 0.0f, 1.0f),
                                    body > 0.0f ? length : 0.0f);
 }
 #endif

@@ -49,7 +49,8 @@ VNDF_RENDER_KERNEL vndf_render_media(const struct vndf_render_sizes sizes, VNDF_
     const float sum = carried.r + carried.g + carried.b, place = u.d * sum;
     const int disperses =
         met && materials[VNDF_MATERIAL_DISPERSION * sizes.materials + surface] > 0.0f && sum > 0.0f;
-    const int red = place<carried.r, blue = carried.b> 0.0f && place >= carried.r + carried.g;
+    const int red = place < carried.r;
+    const int blue = carried.b > 0.0f && place >= carried.r + carried.g;
     const int green = !red && !blue;
     carried.r = disperses ? (red ? sum : 0.0f) : carried.r;
     carried.g = disperses ? (green ? sum : 0.0f) : carried.g;

@@ -28,12 +28,9 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
                                              VNDF_RENDER_FROM(float) materials, uint number,
                                              VNDF_RENDER_FROM(float) surface, VNDF_RENDER_FROM(float) path,
                                              float turn, uint stride, uint i) {
-    struct vndf_render_row row;
-    row.count = sizes.materials;
-    row.number = number;
-    row.one = sizes.one;
-    row.channel = vndf_render_channel(path, stride, i);
-    return vndf_render_bsdf_of(materials, row, turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
+    return vndf_render_bsdf_of(materials, vndf_render_row_of(sizes, number),
+                               vndf_render_channel(path, stride, i),
+                               turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
                                turn * surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
                                surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i]);
 }
@@ -60,18 +57,10 @@ VNDF_RENDER_KERNEL vndf_render_glow(const struct vndf_render_sizes sizes, VNDF_R
                                     VNDF_RENDER_IN(uint) slot, const uint count, const uint stride,
                                     VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
-    const int met = i < count && material[i] != VNDF_MISS;
-    struct vndf_render_row row;
-    row.count = sizes.materials;
-    row.number = met ? material[i] : 0;
-    row.one = sizes.one;
-    const struct vndf_rgb emission = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_EMISSION);
-    // Items beyond the count have a slot of their own, which nobody reads.
-    const uint to = i < count ? slot[i] : stride - 1;
-    const float kept = met ? 1.0f : 0.0f;
-    light[to] += kept * path[VNDF_PATH_RED * stride + i] * emission.r;
-    light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] * emission.g;
-    light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] * emission.b;
+    const struct vndf_rgb emission = vndf_render_rgb_at(
+        materials, vndf_render_row_of(sizes, i < count ? material[i] : 0), VNDF_MATERIAL_EMISSION);
+    vndf_render_add_light(vndf_render_vector_of(emission.r, emission.g, emission.b), i < count ? 1.0f : 0.0f,
+                          path, slot, count, stride, i, light);
 }
 
 // The light of the direction chosen becomes what of it arrives at the eye if nothing is in its way.
