@@ -304,10 +304,8 @@ VNDF_FN struct vndf_bsdf_direction vndf_bsdf_sample(VNDF_REAL3 wo, struct vndf_b
 VNDF_FN struct vndf_rgb vndf_bsdf_transmittance(struct vndf_bsdf bsdf, VNDF_REAL distance) {
 #if VNDF_DIELECTRIC && VNDF_ABSORPTION
     VNDF_REAL red = vndf_transmittance(distance, bsdf.absorption.r);
-    // Made dependent on the last channel's, so that LLVM's SLP pass does not pack them (impl/stretch.h); the other choice is never
-    // taken.
-    VNDF_REAL green = vndf_transmittance(distance, red >= VNDF_R(0.0) ? bsdf.absorption.g : VNDF_R(1.0));
-    VNDF_REAL blue = vndf_transmittance(distance, green >= VNDF_R(0.0) ? bsdf.absorption.b : VNDF_R(1.0));
+    VNDF_REAL green = vndf_transmittance(distance, vndf_impl_next_channel(bsdf.absorption.g, red));
+    VNDF_REAL blue = vndf_transmittance(distance, vndf_impl_next_channel(bsdf.absorption.b, green));
     return vndf_impl_rgb(red, green, blue);
 #else
     (void)bsdf;

@@ -127,14 +127,6 @@ VNDF_FN VNDF_REAL vndf_impl_half_cosine(VNDF_REAL3 wo, VNDF_REAL3 wi) {
 
 #if VNDF_CONDUCTOR
 
-#if VNDF_CHOSEN(VNDF_FRESNEL, conductor) || VNDF_CHOSEN(VNDF_FRESNEL, f82)
-// A parameter of the next channel, made dependent on the last one's reflectance, so that LLVM's SLP pass does not pack the alike
-// formulas (impl/stretch.h); the other choice is never taken.
-VNDF_FN VNDF_REAL vndf_impl_next_channel(VNDF_REAL parameter, VNDF_REAL last) {
-    return last >= VNDF_R(0.0) ? parameter : VNDF_R(1.0);
-}
-#endif
-
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_reflectance(struct vndf_bsdf b, VNDF_REAL cosine) {
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
     VNDF_REAL red = vndf_fresnel_conductor(cosine, b.eta.r, b.k.r);

@@ -56,12 +56,11 @@ VNDF_FN VNDF_REAL vndf_impl_rougher(VNDF_REAL weight, struct vndf_impl_rough_dif
     VNDF_REAL beyond = VNDF_FMA(albedo, d.single, again * d.multiple);
     return vndf_impl_max(VNDF_FMA(scale * d.excess, beyond, weight), VNDF_R(0.0));
 }
-// Each channel depends on the last, so that LLVM's SLP pass does not pack them; the other choice is never taken.
 VNDF_FN struct vndf_rgb vndf_impl_rgb_rougher(struct vndf_rgb weight, struct vndf_impl_rough_diffuse d,
                                               VNDF_REAL scale, struct vndf_rgb albedo) {
     VNDF_REAL red = vndf_impl_rougher(weight.r, d, scale, albedo.r);
-    VNDF_REAL green = vndf_impl_rougher(weight.g, d, scale, red >= VNDF_R(0.0) ? albedo.g : VNDF_R(1.0));
-    VNDF_REAL blue = vndf_impl_rougher(weight.b, d, scale, green >= VNDF_R(0.0) ? albedo.b : VNDF_R(1.0));
+    VNDF_REAL green = vndf_impl_rougher(weight.g, d, scale, vndf_impl_next_channel(albedo.g, red));
+    VNDF_REAL blue = vndf_impl_rougher(weight.b, d, scale, vndf_impl_next_channel(albedo.b, green));
     return vndf_impl_rgb(red, green, blue);
 }
 

@@ -35,6 +35,12 @@ VNDF_FN struct vndf_rgb vndf_impl_rgb_product(struct vndf_rgb a, struct vndf_rgb
     return vndf_impl_rgb(a.r * b.r, a.g * b.g, a.b * b.b);
 }
 
+// A parameter of the next channel, made dependent on what the last one has made, at least 0, so that LLVM's SLP pass does not pack
+// the alike formulas (impl/stretch.h); the other choice is never taken.
+VNDF_FN VNDF_REAL vndf_impl_next_channel(VNDF_REAL parameter, VNDF_REAL last) {
+    return last >= VNDF_R(0.0) ? parameter : VNDF_R(1.0);
+}
+
 // The parameters: members of struct vndf_bsdf.
 #if VNDF_CHOSEN(VNDF_FRESNEL, conductor)
 #define VNDF_IMPL_FRESNEL_MEMBERS struct vndf_rgb eta, k;
