@@ -3,9 +3,11 @@
 
 #include <limits>
 
-#include "render/scene.h"
+#include "render/material.h"
 
 namespace vndf::render {
+
+enum class Alpha { opaque, mask, blend };
 
 // The metallic-roughness material with KHR_materials_specular, _ior, _transmission, _volume, _dispersion, _clearcoat, _anisotropy
 // and _emissive_strength: factors at a point, textures multiplied in, each as glTF defines it.
@@ -20,7 +22,11 @@ struct GltfMaterial {
     float specular = 1;
     Vec specular_colour{1, 1, 1};
     float clearcoat = 0, clearcoat_roughness = 0;
-    float anisotropy = 0;  // strength; its rotation is the tangent's
+    float anisotropy = 0, anisotropy_rotation = 0;  // strength; radians, from the tangent to the bitangent
+    float normal_scale = 1;
+    Alpha alpha = Alpha::opaque;
+    float opacity = 1, alpha_cutoff = 0.5f;
+    bool unlit = false, double_sided = false;
 };
 
 // alpha is the square of a roughness. What is not exact: a specular factor and colour count by the reflectance at normal incidence

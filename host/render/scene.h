@@ -8,53 +8,83 @@
 #include <vector>
 
 #include "kernels/render/queues.h"
+#include "render/environment.h"
+#include "render/gltf.h"
+#include "render/material.h"
 
 namespace vndf::render {
 
-using Vec = std::array<float, 3>;
-
-// As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, a rough dielectric over another medium or over Lambert's reflection, or
-// a mix.
-struct Material {
-    float alpha_x = 1, alpha_y = 1;
-    float metal = 1;  // the conductor's share
-    Vec first{1, 1, 1},
-        second{1, 1, 1};  // of its reflectance: f0 and f90, eta and k, or f0 and the tint at 82 degrees
-    Vec tint{1, 1, 1}, albedo{};
-    float ior = 1, transmission = 0;  // of what is not metal
-    Vec transmittance{1, 1, 1};
-    float dispersion = 0;  // 20 over Abbe's number
-    Vec absorption{};      // by the body behind, in a unit of length
-    float diffuse_roughness = 0;
-    float coat = 0, coat_alpha = 0.01f;  // a layer of index 1.5 over all
-    Vec emission{};                      // radiance, on both sides
-
-    bool operator==(const Material&) const = default;
-};
-Material conductor(Vec f0, float alpha_x, float alpha_y);
-Material lambert(Vec albedo);
-Material glass(float ior, float alpha);
-Material plastic(Vec albedo, float alpha);
-Material rough(Material diffuse, float roughness);
-Material coated(Material base, float factor, float alpha);
-// Of which a way of `distance` leaves `colour` of white light, as glTF has it (KHR_materials_volume).
-Material tinted(Material glass, Vec colour, float distance);
-
-bool dielectric(const Material& m);
-bool transmits(const Material& m);
-
 struct Vertex {
     Vec place, normal;
+    // Of the texture coordinates that the normal map has, or else of set 0, orthogonal to the normal, and the sign of the bitangent
+    // (normal x tangent times it); 0 where there is none.
+    std::array<float, 4> tangent{};
+    std::array<std::array<float, 2>, 2> uv{};
+    std::array<float, 4> colour{1, 1, 1, 1};  // linear
 };
 
+// The corners run counterclockwise seen from outside.
 struct Triangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t material = 0;
 };
 
+// Red in the lowest byte, alpha in the highest, rows from the top.
+struct Bitmap {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint32_t> texels;
+};
+
+enum class Wrap : std::uint32_t { repeat, clamp, mirror };
+struct Texture {
+    std::uint32_t bitmap = 0;
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    bool nearest = false;  // no interpolation between texels
+};
+
+// What textures say of a material.
+enum class Slot {
+    base_colour,
+    metallic_roughness,
+    normal,
+    emissive,
+    transmission,
+    coat,
+    coat_roughness,
+    specular,
+    specular_colour,
+    anisotropy
+};
+constexpr std::size_t slot_count = 10;
+
+// A texture at the coordinates (t0 u + t1 v + t2, t3 u + t4 v + t5) of a set; texture < 0: none.
+struct TextureUse {
+    std::int32_t texture = -1;
+    std::uint32_t set = 0;
+    std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+};
+
+// What a material is made from where textures have a say.
+struct Dressing {
+    GltfMaterial factors;
+    std::array<TextureUse, slot_count> textures;
+};
+
+// KHR_lights_punctual: candela, lux for a directional one. Colour linear.
+struct PunctualLight {
+    enum class Kind : std::uint32_t { point, spot, directional };
+    Kind kind = Kind::point;
+    Vec colour{1, 1, 1};
+    float intensity = 1;
+    Vec place{}, direction{0, 0, -1};  // that it shines in
+    float inner_angle = 0, outer_angle = 0.785398163f;
+};
+
 struct Camera {
-    Vec eye{0, 0, 5}, target{};
-    float width = 1;  // of the film at distance 1
+    Vec eye{0, 0, 5}, target{}, up{0, 1, 0};
+    float width = 1;        // of the film at distance 1
+    float height = 0;       // if > 0, that of the film, and the width goes by the image
+    bool parallel = false;  // rays: then the film is that large wherever it is
 };
 
 struct Sky {
@@ -69,9 +99,15 @@ struct Scene {
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
+    std::vector<std::string> material_names;  // or none
+    std::vector<Dressing> dressings;          // of each material, or none
+    std::vector<Bitmap> bitmaps;
+    std::vector<Texture> textures;
+    std::vector<PunctualLight> lights;
     std::string fresnel = "schlick";  // the model of every conductor, a value of VNDF_FRESNEL
     bool open = false;                // surfaces may be seen from behind
     Sky sky;
+    Environment environment;  // in the sky's place, if it is not empty
     Camera camera;
 
     // Triangles of a sphere with smooth normals: 2 rows (rows - 1) * 2 of them, poles along y.
