@@ -155,7 +155,7 @@ void run(const Render& r, Common& common) {
                                 {"estimated error", fmt::format("{:.3g}", image.error)},
                                 {"seed", fmt::format("{}", common.seed)},
                                 {"random numbers", r.choices.random},
-                                {"switches", switches.paths + ' ' + switches.materials},
+                                {"switches", switches.materials},
                                 {"math", r.math},
                                 {"longest path", fmt::format("{} surfaces", r.max_bounces)},
                                 {"device", stages->describe()},

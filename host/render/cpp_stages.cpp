@@ -1,5 +1,6 @@
 #include "render/cpp_stages.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -17,8 +18,7 @@ namespace {
 Runs runs_of(const std::string& ndf, const std::string& fresnel) {
     Runs runs{
         {"generate", Runner<vndf_render_generate>::run}, {"traverse", Runner<vndf_render_traverse>::run},
-        {"packets", Runner<vndf_render_packets>::run},   {"leave", Runner<vndf_render_leave>::run},
-        {"lights", Runner<vndf_render_lights>::run},     {"survive", Runner<vndf_render_survive>::run},
+        {"packets", Runner<vndf_render_packets>::run},   {"survive", Runner<vndf_render_survive>::run},
         {"shadow", Runner<vndf_render_shadow>::run},     {"count", Runner<vndf_render_count>::run},
         {"offsets", Runner<vndf_render_offsets>::run},   {"list", Runner<vndf_render_list>::run},
         {"move", Runner<vndf_render_move>::run},         {"accumulate", Runner<vndf_render_accumulate>::run}};
@@ -37,7 +37,8 @@ class CppStages final : public Stages {
     explicit CppStages(Runs runs) : runs_(std::move(runs)) {}
 
     Buffer buffer(std::size_t bytes) override {
-        buffers_.emplace_back((bytes + 3) / 4, 0.0f);
+        // Never empty, as on devices.
+        buffers_.emplace_back(std::max<std::size_t>(1, (bytes + 3) / 4), 0.0f);
         return buffers_.size() - 1;
     }
     void write(Buffer to, const void* from, std::size_t bytes) override {
@@ -58,7 +59,7 @@ class CppStages final : public Stages {
     }
     std::string describe() const override { return "C++"; }
     unsigned packet() const override { return VNDF_PACKET; }
-    bool media() const override { return runs_.count("media") != 0; }
+    bool has(const std::string& stage) const override { return runs_.count(stage) != 0; }
 
   private:
     Runs runs_;

@@ -28,7 +28,7 @@ class DeviceStages final : public Stages {
                    options_of("kernels/render/paths.cl",
                               fmt::format("{} -DVNDF_PACKET={}", switches.paths, packet_))),
           materials_(program_, math, runtime::Real::f32,
-                     options_of("kernels/render/materials.cl", switches.paths + ' ' + switches.materials)),
+                     options_of("kernels/render/materials.cl", switches.materials)),
           timed_(timed) {}
 
     Buffer buffer(std::size_t bytes) override {
@@ -80,7 +80,9 @@ class DeviceStages final : public Stages {
 
     std::string describe() const override { return program_.device().label(); }
     unsigned packet() const override { return packet_; }
-    bool media() const override { return materials_.has_kernel("vndf_render_media"); }
+    bool has(const std::string& stage) const override {
+        return program_.has_kernel("vndf_render_" + stage) || materials_.has_kernel("vndf_render_" + stage);
+    }
 
   private:
     cl::Kernel kernel(const std::string& name) const {

@@ -9,22 +9,70 @@
 
 #include "../effects.h"
 #include "error.h"
+#include "render/variants.h"
 #include "text.h"
 
 namespace vndf::render {
 namespace {
 
-// "material 0 and 4 others" for the materials that `calls`; empty if there is none.
-std::string materials_that(const Scene& scene, const std::function<bool(const Material&)>& calls) {
+// A scene, and what its materials are at least and at most.
+struct Surveyed {
+    explicit Surveyed(const Scene& of) : scene(of), ranges(of) {
+        for (std::size_t i = 0; i < of.materials.size(); ++i)
+            if (scene.dressings.empty())
+                materials.push_back({of.materials[i]});
+            else
+                materials.push_back(variants(of, ranges, i));
+        used.resize(of.materials.size());
+        for (const Triangle& t : of.triangles) {
+            used[t.material] = true;
+            tangents = tangents || of.vertices[t.corners[0]].tangent[3] != 0;
+        }
+    }
+
+    const Scene& scene;
+    TexelRanges ranges;
+    std::vector<std::vector<Material>> materials;
+    std::vector<bool> used;  // by a triangle
+    bool tangents = false;
+};
+
+std::string named(const Scene& scene, std::size_t material) {
+    const bool has = material < scene.material_names.size() && !scene.material_names[material].empty();
+    return has ? fmt::format("material {} ({})", material, scene.material_names[material])
+               : fmt::format("material {}", material);
+}
+
+// "material 0 and 4 more" for those that call; empty if there is none.
+std::string materials_where(const Surveyed& s, const std::function<bool(std::size_t)>& calls) {
     std::size_t count = 0, first = 0;
-    for (std::size_t i = scene.materials.size(); i-- > 0;) {
-        if (!calls(scene.materials[i])) continue;
+    for (std::size_t i = s.materials.size(); i-- > 0;) {
+        if (!s.used[i] || !calls(i)) continue;
         ++count;
         first = i;
     }
     if (count == 0) return {};
-    return count == 1 ? fmt::format("material {}", first)
-                      : fmt::format("material {} and {} more", first, count - 1);
+    return named(s.scene, first) + (count == 1 ? "" : fmt::format(" and {} more", count - 1));
+}
+
+// Those that are so somewhere.
+std::string materials_that(const Surveyed& s, const std::function<bool(const Material&)>& calls) {
+    return materials_where(
+        s, [&](std::size_t i) { return std::any_of(s.materials[i].begin(), s.materials[i].end(), calls); });
+}
+
+// Those with a texture in a slot that changes something.
+std::string materials_with(const Surveyed& s, Slot slot,
+                           const std::function<bool(std::size_t, const TexelRange&)>& says) {
+    return materials_where(s, [&](std::size_t i) {
+        if (s.scene.dressings.empty()) return false;
+        return s.scene.dressings[i].textures[static_cast<std::size_t>(slot)].texture >= 0 &&
+               says(i, s.ranges.of(i, slot));
+    });
+}
+
+bool some_below_white(const TexelRange& range, std::initializer_list<int> channels) {
+    return std::any_of(channels.begin(), channels.end(), [&](int c) { return range.least[c] < 255; });
 }
 
 // Whether the corners' normals are the face's, as the kernel forms it (kernels/render/surface.h): then all products are exact.
@@ -44,70 +92,191 @@ bool flat(const Scene& scene, const Triangle& triangle) {
     return true;
 }
 
-std::string bent_triangles(const Scene& scene) {
-    const auto bent = std::count_if(scene.triangles.begin(), scene.triangles.end(),
-                                    [&](const Triangle& t) { return !flat(scene, t); });
+std::string bent_triangles(const Surveyed& s) {
+    const auto bent = std::count_if(s.scene.triangles.begin(), s.scene.triangles.end(),
+                                    [&](const Triangle& t) { return !flat(s.scene, t); });
     return bent == 0 ? std::string() : fmt::format("{} triangles with normals of their own", bent);
 }
 
+// The first that says something.
+std::string first_of(std::initializer_list<std::string> callers) {
+    const auto found = std::find_if(callers.begin(), callers.end(), [](const auto& c) { return !c.empty(); });
+    return found == callers.end() ? std::string() : *found;
+}
+
+bool lets_light_pass(const Surveyed& s, std::size_t i) {
+    if (s.scene.dressings.empty()) return false;
+    const GltfMaterial& m = s.scene.dressings[i].factors;
+    if (m.alpha == Alpha::opaque) return false;
+    float painted = 1;
+    for (const Triangle& t : s.scene.triangles)
+        if (t.material == i)
+            for (const std::uint32_t corner : t.corners)
+                painted = std::min(painted, s.scene.vertices[corner].colour[3]);
+    const float least =
+        m.opacity * painted * static_cast<float>(s.ranges.of(i, Slot::base_colour).least[3]) / 255;
+    return least < (m.alpha == Alpha::mask ? m.alpha_cutoff : 1.0f);
+}
+
+std::string normal_mapped(const Surveyed& s) {
+    return materials_with(s, Slot::normal, [&](std::size_t i, const TexelRange& range) {
+        const auto flat = [](std::uint32_t byte) { return byte == 127 || byte == 128; };
+        const bool map =
+            !flat(range.least[0]) || !flat(range.most[0]) || !flat(range.least[1]) || !flat(range.most[1]);
+        return s.tangents && map && s.scene.dressings[i].factors.normal_scale != 0;
+    });
+}
+
+std::string painted_vertices(const Surveyed& s) {
+    std::size_t count = 0;
+    const bool alpha = std::any_of(s.scene.dressings.begin(), s.scene.dressings.end(),
+                                   [](const Dressing& d) { return d.factors.alpha != Alpha::opaque; });
+    for (const Vertex& v : s.scene.vertices)
+        count += v.colour[0] != 1 || v.colour[1] != 1 || v.colour[2] != 1 || (alpha && v.colour[3] != 1);
+    return count == 0 ? std::string() : fmt::format("{} vertices with a colour", count);
+}
+
+// A texture of a layer that is there, or of what light does in it.
+std::string layered(const Surveyed& s) {
+    const auto in = [&](Slot slot, int channel, const std::function<bool(const GltfMaterial&)>& there) {
+        return materials_with(s, slot, [&](std::size_t i, const TexelRange& range) {
+            return there(s.scene.dressings[i].factors) && some_below_white(range, {channel});
+        });
+    };
+    return first_of({in(Slot::transmission, 0, [](const GltfMaterial& m) { return m.transmission > 0; }),
+                     in(Slot::coat, 0, [](const GltfMaterial& m) { return m.clearcoat > 0; }),
+                     in(Slot::coat_roughness, 1,
+                        [](const GltfMaterial& m) { return m.clearcoat > 0 && m.clearcoat_roughness > 0; }),
+                     // White stands for a direction, too.
+                     materials_with(s, Slot::anisotropy, [&](std::size_t i, const TexelRange& range) {
+                         return s.scene.dressings[i].factors.anisotropy > 0 && range.most[2] > 0;
+                     })});
+}
+
+std::string emission_textured(const Surveyed& s) {
+    return materials_where(s, [&](std::size_t i) {
+        if (s.scene.dressings.empty() || s.scene.materials[i].emission == Vec{}) return false;
+        const bool unlit = s.scene.dressings[i].factors.unlit;
+        return some_below_white(s.ranges.of(i, unlit ? Slot::base_colour : Slot::emissive), {0, 1, 2});
+    });
+}
+
+std::string bent(const Surveyed& s) {
+    return first_of({normal_mapped(s), bent_triangles(s)});
+}
+
+std::string shining(const Surveyed& s) {
+    return materials_that(s, [](const Material& m) { return m.emission != Vec{}; });
+}
+
 // What calls for each effect. One that is not here is always called for.
-const std::map<std::string, std::function<std::string(const Scene&)>>& callers() {
-    static const std::map<std::string, std::function<std::string(const Scene&)>> all{
+const std::map<std::string, std::function<std::string(const Surveyed&)>>& callers() {
+    static const std::map<std::string, std::function<std::string(const Surveyed&)>> all{
         {"conductor",
-         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
-        {"dielectric", [](const Scene& s) { return materials_that(s, dielectric); }},
+         [](const Surveyed& s) { return materials_that(s, [](const Material& m) { return m.metal > 0; }); }},
+        {"dielectric", [](const Surveyed& s) { return materials_that(s, dielectric); }},
         {"lambert",
-         [](const Scene& s) {
+         [](const Surveyed& s) {
              return materials_that(s, [](const Material& m) { return m.metal < 1 && m.transmission < 1; });
          }},
         {"rough_diffuse",
-         [](const Scene& s) {
+         [](const Surveyed& s) {
              return materials_that(s, [](const Material& m) {
                  return m.metal < 1 && m.transmission < 1 && m.diffuse_roughness > 0;
              });
          }},
         {"coat",
-         [](const Scene& s) { return materials_that(s, [](const Material& m) { return m.coat > 0; }); }},
+         [](const Surveyed& s) { return materials_that(s, [](const Material& m) { return m.coat > 0; }); }},
         {"anisotropic",
-         [](const Scene& s) {
-             return materials_that(s, [](const Material& m) {
-                 return (m.metal > 0 || dielectric(m)) && m.alpha_x != m.alpha_y;
-             });
+         [](const Surveyed& s) {
+             return materials_that(s, [](const Material& m) { return anisotropic(m); });
          }},
         {"tint",
-         [](const Scene& s) {
+         [](const Surveyed& s) {
              return materials_that(s, [](const Material& m) {
-                 return m.tint != Vec{1, 1, 1} || m.transmittance != Vec{1, 1, 1};
+                 return (m.metal > 0 && m.tint != Vec{1, 1, 1}) ||
+                        (transmits(m) && m.transmittance != Vec{1, 1, 1});
              });
          }},
         {"absorption",
-         [](const Scene& s) {
+         [](const Surveyed& s) {
              return materials_that(s,
                                    [](const Material& m) { return transmits(m) && m.absorption != Vec{}; });
          }},
         {"dispersion",
-         [](const Scene& s) {
+         [](const Surveyed& s) {
              return materials_that(s, [](const Material& m) { return dielectric(m) && m.dispersion != 0; });
          }},
         {"back_facing",
-         [](const Scene& s) {
-             return s.open ? std::string("surfaces that may be seen from behind")
-                           : materials_that(s, transmits);
+         [](const Surveyed& s) {
+             return s.scene.open ? std::string("surfaces that may be seen from behind")
+                                 : materials_that(s, transmits);
          }},
-        {"shading_normal", bent_triangles},
-        {"terminator", bent_triangles}};
+        {"shading_normal", bent},
+        {"terminator", bent},
+        {"alpha",
+         [](const Surveyed& s) {
+             return materials_where(s, [&](std::size_t i) { return lets_light_pass(s, i); });
+         }},
+        {"tangent",
+         [](const Surveyed& s) { return s.tangents ? materials_that(s, anisotropic) : std::string(); }},
+        {"normal_map", normal_mapped},
+        {"vertex_colour", painted_vertices},
+        {"texture",
+         [](const Surveyed& s) {
+             return materials_with(s, Slot::base_colour, [&](std::size_t i, const TexelRange& range) {
+                 return some_below_white(range, {0, 1, 2}) ||
+                        (s.scene.dressings[i].factors.alpha != Alpha::opaque && some_below_white(range, {3}));
+             });
+         }},
+        {"roughness_texture",
+         [](const Surveyed& s) {
+             return materials_with(s, Slot::metallic_roughness, [](std::size_t, const TexelRange& range) {
+                 return some_below_white(range, {1, 2});
+             });
+         }},
+        {"layer_texture", layered},
+        {"emission", shining},
+        {"emission_texture", emission_textured},
+        {"lamp", shining},
+        {"point_light",
+         [](const Surveyed& s) {
+             return s.scene.lights.empty() ? std::string() : fmt::format("{} lights", s.scene.lights.size());
+         }},
+        {"environment", [](const Surveyed& s) {
+             return s.scene.environment.side > 0 ? std::string("an image of the environment") : std::string();
+         }}};
+
     return all;
 }
 
+// The names of the renderer's own.
+std::vector<std::string> own_effects() {
+    return {
+#define VNDF_RENDER_EFFECT(name, called_for, marks) lower(#name),
+#include "../../kernels/render/effects.def"
+    };
+}
+
 std::vector<Effect> called_effects(const Scene& scene) {
+    const Surveyed surveyed(scene);
     std::vector<Effect> effects;
-    for (const vndf::Effect& known : vndf::effects()) {
-        const auto caller = callers().find(known.name);
-        Effect effect{known.name, caller == callers().end() ? "every scene" : caller->second(scene)};
+    const auto add = [&](const std::string& name, const std::string& macro) {
+        const auto caller = callers().find(name);
+        Effect effect{name, macro, caller == callers().end() ? "every scene" : caller->second(surveyed)};
         effect.on = !effect.called_by.empty();
         effects.push_back(effect);
-    }
+    };
+    for (const vndf::Effect& known : vndf::effects()) add(known.name, switch_of(known.name));
+    for (const std::string& name : own_effects()) add(name, "VNDF_RENDER_" + upper(name));
     return effects;
+}
+
+// Whether the stages that know no materials have code of an effect: of paths a plane, of the bodies that they are in; rays that
+// pass what is not opaque; lights that are near.
+bool of_paths(const std::string& effect, bool alpha) {
+    return effect == "absorption" || effect == "alpha" || effect == "lamp" || effect == "point_light" ||
+           (alpha && (effect == "texture" || effect == "vertex_colour"));
 }
 
 // The models of energy are a conductor's: with them even "all" has no dielectric.
@@ -162,16 +331,18 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
             "--sampler {}: draws no light through a surface, and a material transmits it", choices.sampler));
     std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
                                    scene.fresnel, choices.masking);
+    text += " -DVNDF_RANDOM=" + choices.random;
     if (choices.energy != "none") text += " -DVNDF_ENERGY=" + choices.energy;
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     std::string paths = "-DVNDF_RANDOM=" + choices.random;
+    const bool alpha = std::any_of(effects.begin(), effects.end(),
+                                   [](const Effect& e) { return e.name == "alpha" && e.on; });
     for (const Effect& effect : effects) {
-        const std::string macro =
-            fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on && compiles(effect, choices));
-        text += macro;
-        // Of paths a plane, of the bodies that they are in.
-        if (effect.name == "absorption") paths += macro;
+        const bool on = effect.on && compiles(effect, choices);
+        text += fmt::format(" -D{}={:d}", effect.macro, on);
+        if (effect.macro.starts_with("VNDF_RENDER_") || of_paths(effect.name, alpha))
+            paths += fmt::format(" -D{}={:d}", effect.macro, on && of_paths(effect.name, alpha));
     }
     return {paths, text};
 }

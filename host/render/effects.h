@@ -1,4 +1,4 @@
-// Which effects of kernels/effects.def a scene calls for, and the program with those alone.
+// Which effects of kernels/effects.def and kernels/render/effects.def a scene calls for, and the program with those alone.
 #pragma once
 
 #include <string>
@@ -12,6 +12,7 @@ namespace vndf::render {
 
 struct Effect {
     std::string name;       // "anisotropic"
+    std::string macro;      // "VNDF_ANISOTROPIC"
     std::string called_by;  // what in the scene calls for it; empty: nothing does
     bool on = true;
 };

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "../effects.h"
-
 namespace vndf::render {
 namespace {
 
@@ -78,9 +76,9 @@ std::string explanation(Explained what) {
     std::string simplifications;
     for (std::size_t i = 0; i < what.effects.size(); ++i) {
         const Effect& effect = what.effects[i];
-        text += fmt::format(
-            "{:<16}{:<46}{:<26}{}\n", effect.name, effect.called_by.empty() ? "nothing" : effect.called_by,
-            fmt::format("{}={:d}", switch_of(effect.name), effect.on), cost(what, i, usual.shading));
+        text += fmt::format("{:<16}{:<46}{:<26}{}\n", effect.name,
+                            effect.called_by.empty() ? "nothing" : effect.called_by,
+                            fmt::format("{}={:d}", effect.macro, effect.on), cost(what, i, usual.shading));
         if (effect.on || effect.called_by.empty()) continue;
         std::vector<Effect> whole = what.effects;
         whole[i].on = true;

@@ -189,25 +189,17 @@ vndf_render_view view_of(const Camera& camera, unsigned width, unsigned height) 
     const auto wide = [](const Vec& v) { return Vec3{v[0], v[1], v[2]}; };
     const Vec3 eye = wide(camera.eye), target = wide(camera.target);
     const Vec3 forward = unit({target[0] - eye[0], target[1] - eye[1], target[2] - eye[2]});
-    const Vec3 side = unit(cross(forward, {0, 1, 0}));
-    const Vec right = narrow(scaled(side, camera.width / 2.0)),
-              up = narrow(scaled(cross(side, forward), camera.width / 2.0 * height / width)),
-              ahead = narrow(forward);
-    return {camera.eye[0], camera.eye[1], camera.eye[2], right[0], right[1], right[2], up[0],
-            up[1],         up[2],         ahead[0],      ahead[1], ahead[2], width,    height};
-}
-
-vndf_render_sky sky_of(const Sky& sky) {
-    // 1 - cos(radius) without cancellation.
-    const double half = std::sin(sky.sun_radius / 2.0);
-    const bool sun = sky.sun_share > 0;
+    const Vec3 side = unit(cross(forward, wide(camera.up)));
+    const double film =
+        camera.height > 0 ? static_cast<double>(camera.height) * width / height : camera.width;
+    const Vec right = narrow(scaled(side, film / 2)),
+              up = narrow(scaled(cross(side, forward), film / 2 * height / width)), ahead = narrow(forward);
     const Vec none{};
-    const Vec& light = sun ? sky.sun : none;
-    return {sky.zenith[0],  sky.zenith[1],  sky.zenith[2], sky.horizon[0],
-            sky.horizon[1], sky.horizon[2], sky.ground[0], sky.ground[1],
-            sky.ground[2],  light[0],       light[1],      light[2],
-            sky.to_sun[0],  sky.to_sun[1],  sky.to_sun[2], static_cast<float>(2 * half * half),
-            sky.sun_share};
+    const Vec &spread = camera.parallel ? none : right, &spread_up = camera.parallel ? none : up;
+    const Vec &shift = camera.parallel ? right : none, &shift_up = camera.parallel ? up : none;
+    return {camera.eye[0], camera.eye[1], camera.eye[2], spread[0],   spread[1], spread[2], spread_up[0],
+            spread_up[1],  spread_up[2],  ahead[0],      ahead[1],    ahead[2],  shift[0],  shift[1],
+            shift[2],      shift_up[0],   shift_up[1],   shift_up[2], width,     height};
 }
 
 }  // namespace vndf::render

@@ -81,8 +81,9 @@ struct PunctualLight {
 };
 
 struct Camera {
-    Vec eye{0, 0, 5}, target{}, up{0, 1, 0};
-    float width = 1;        // of the film at distance 1
+    Vec eye{0, 0, 5}, target{};
+    float width = 1;  // of the film at distance 1
+    Vec up{0, 1, 0};
     float height = 0;       // if > 0, that of the film, and the width goes by the image
     bool parallel = false;  // rays: then the film is that large wherever it is
 };
@@ -123,8 +124,7 @@ Sky constant_sky(float radiance);
 Scene orbs(std::string_view kind);
 const std::vector<std::string>& orb_kinds();
 
-// The camera and the sky as the kernels take them.
+// The camera as the kernels take it.
 vndf_render_view view_of(const Camera& camera, unsigned width, unsigned height);
-vndf_render_sky sky_of(const Sky& sky);
 
 }  // namespace vndf::render

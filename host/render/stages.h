@@ -41,8 +41,8 @@ class Stages {
     virtual std::string describe() const = 0;
     // Camera rays that an item of the stage `packets` takes; 1: there is no such stage.
     virtual unsigned packet() const = 0;
-    // Whether there is the stage `media`, of paths through bodies that absorb or disperse.
-    virtual bool media() const = 0;
+    // Whether the program has a stage, of those that only some effects have.
+    virtual bool has(const std::string& stage) const = 0;
     // Spent in a stage so far, where stages are timed.
     virtual double seconds(const std::string&) const { return 0; }
 
@@ -54,7 +54,7 @@ class Stages {
     }
 };
 
-// "-DVNDF_..." for the compiler: for all stages, and for those that know materials beside.
+// "-DVNDF_..." for the compiler: for the stages that know no materials, and for those that do.
 struct Switches {
     std::string paths, materials;
     unsigned packet =

@@ -5,14 +5,26 @@
 #include <utility>
 
 #include "render/tables.h"
+#include "splitmix64.h"
 
 namespace vndf::render {
 namespace {
 
 constexpr unsigned roulette_from = 3;  // bounces that every path lives
 
+// Random numbers of a sample: of the camera, two quads of each bounce, and for each bounce another.
+std::size_t quads(const Settings& settings) {
+    return VNDF_QUAD_PICK(std::max(1u, settings.max_bounces)) + std::max(1u, settings.max_bounces);
+}
+
 constexpr std::size_t whole_chunks(std::size_t items) {
     return (items + VNDF_CHUNK - 1) / VNDF_CHUNK * VNDF_CHUNK;
+}
+
+// A cell of darkness, for programs that know environments where the scene has none.
+const Environment& no_environment() {
+    static const Environment dark{1, std::vector<float>(27), {0}, {1}, {0}};
+    return dark;
 }
 
 }  // namespace
@@ -26,16 +38,30 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       stride_(queue_ + runtime::group_size),
       film_stride_(pixels_ + 1),
       view_(view_of(scene.camera, settings.width, settings.height)),
-      sky_(sky_of(scene.sky)),
       sizes_(sizes_of(scene)),
-      shines_(std::any_of(scene.materials.begin(), scene.materials.end(),
-                          [](const Material& m) { return m.emission != Vec{}; })),
-      words_(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces)),
+      media_(stages.has("media")),
+      dressed_(stages.has("dress")),
+      shines_(stages.has("glow")),
+      lamp_table_(lamps_of(scene)),
+      words_(settings.random, settings.seed, static_cast<unsigned>(quads(settings))),
       nodes_(stages.upload(tree.nodes)),
       leaves_(stages.upload(tree.leaves)),
       vertices_(stages.upload(vertex_table(scene))),
       triangles_(stages.upload(triangle_table(scene))),
-      materials_(stages.upload(material_table(scene))) {
+      materials_(stages.upload(material_table(scene))),
+      dressings_(stages.upload(dressing_table(scene))),
+      textures_(stages.upload(texture_table(scene))),
+      texels_(stages.upload(texel_table(scene))),
+      lamps_(stages.upload(lamp_table_.planes)),
+      lamp_numbers_(stages.upload(lamp_table_.numbers)),
+      lamp_densities_(stages.upload(lamp_table_.densities)),
+      points_(stages.upload(point_table(scene))) {
+    sky_ = sky_of(scene, lamp_table_);
+    const Environment& e = scene.environment.side > 0 ? scene.environment : no_environment();
+    around_ = stages.upload(e.radiance);
+    around_pdf_ = stages.upload(e.pdf);
+    around_keep_ = stages.upload(e.keep);
+    around_other_ = stages.upload(e.other);
     const auto planes = [&](std::size_t count) { return stages_.buffer(count * stride_ * sizeof(float)); };
     for (int side = 0; side < 2; ++side) {
         path_[side] = planes(VNDF_PATH_PLANES);
@@ -46,13 +72,12 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     lights_ = planes(VNDF_LIGHT_PLANES);
     surface_ = planes(VNDF_SURFACE_PLANES);
     material_ = planes(1);
+    look_ = planes(dressed_ ? VNDF_LOOK_PLANES : 0);
     from_ = planes(1);
     offset_ = planes(1);
     light_ = planes(3);
     film_ = stages_.buffer(std::size_t{VNDF_FILM_PLANES} * film_stride_ * sizeof(float));
-    word_buffer_ = stages_.upload(
-        Words(settings.random, settings.seed, 1 + VNDF_QUAD_BOUNCE * std::max(1u, settings.max_bounces))
-            .next());
+    word_buffer_ = stages_.buffer(VNDF_QUAD_WORDS * quads(settings) * sizeof(std::uint32_t));
 }
 
 bool Wavefront::add_sample(const std::function<bool()>& stop) {
@@ -76,17 +101,20 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
     auto path = path_[0], slot = slot_[0], moved = path_[1], moved_slot = slot_[1];
     stages_.launch("generate", count, {&view_, word_buffer_, first, stride_, path, slot, light_});
     for (unsigned bounce = 0;; ++bounce) {
+        const std::uint32_t ray_salt = salt(bounce, false);
         const std::uint32_t packet = bounce == 0 ? stages_.packet() : 1;
         stages_.launch(packet > 1 ? "packets" : "traverse", (count + packet - 1) / packet,
-                       {nodes_, leaves_, path, count, stride_, hit_[0], triangle_[0]});
+                       {nodes_, leaves_, &sizes_, vertices_, triangles_, dressings_, textures_, texels_, slot,
+                        first, ray_salt, path, count, stride_, hit_[0], triangle_[0]});
         const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce;
         // Behind the last bounce there are no random numbers, and no use for one.
         const std::uint32_t channel_quad = bounce == settings_.max_bounces ? 0 : light_quad;
-        if (stages_.media())
+        if (media_)
             stages_.launch("media", count,
                            {&sizes_, vertices_, triangles_, materials_, hit_[0], triangle_[0], word_buffer_,
                             channel_quad, slot, first, count, stride_, path});
-        stages_.launch("leave", count, {&sky_, path, triangle_[0], slot, count, stride_, light_});
+        stages_.launch("leave", count,
+                       {&sky_, around_, around_pdf_, path, triangle_[0], slot, count, stride_, light_});
         if (bounce == settings_.max_bounces && !shines_) return;
         const auto chunks = static_cast<std::uint32_t>(whole_chunks(count) / VNDF_CHUNK);
         stages_.launch("count", chunks, {triangle_[0], count, chunks, offset_});
@@ -104,25 +132,45 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
     }
 }
 
+// Of the rays of a bounce of this sample, for what their chance to pass a surface is made from.
+std::uint32_t Wavefront::salt(unsigned bounce, bool shadow) const {
+    return static_cast<std::uint32_t>(
+        splitmix64(settings_.seed ^ splitmix64((samples_ << 16) + 2 * bounce + shadow)));
+}
+
 // What happens on the surfaces that the paths met.
 void Wavefront::turn(std::uint32_t first, std::uint32_t count, unsigned bounce, Stages::Buffer path,
                      Stages::Buffer slot) {
     const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce,
                         bsdf_quad = VNDF_QUAD_BSDF + VNDF_QUAD_BOUNCE * bounce;
     const std::int32_t roulette = bounce >= roulette_from;
-    stages_.launch(
-        "surface", count,
-        {&sizes_, vertices_, triangles_, hit_[1], triangle_[1], count, stride_, path, surface_, material_});
+    stages_.launch("surface", count,
+                   {&sizes_, vertices_, triangles_, dressings_, textures_, texels_, hit_[1], triangle_[1],
+                    count, stride_, path, surface_, material_});
+    if (dressed_)
+        stages_.launch("dress", count,
+                       {&sizes_, vertices_, triangles_, dressings_, textures_, texels_, materials_, hit_[1],
+                        triangle_[1], count, stride_, look_});
     if (shines_)
-        stages_.launch("glow", count, {&sizes_, materials_, material_, path, slot, count, stride_, light_});
+        stages_.launch("glow", count,
+                       {&sizes_, &sky_, materials_, material_, look_, lamp_densities_, triangle_[1], surface_,
+                        path, slot, count, stride_, light_});
     if (bounce == settings_.max_bounces) return;
+    const std::uint32_t pick_quad = VNDF_QUAD_PICK(settings_.max_bounces) + bounce,
+                        shadow_salt = salt(bounce, true);
     stages_.launch("lights", count,
-                   {&sky_, word_buffer_, light_quad, slot, first, surface_, stride_, lights_});
-    stages_.launch("connect", count, {&sizes_, materials_, material_, surface_, path, stride_, lights_});
-    stages_.launch("shadow", count, {nodes_, leaves_, path, lights_, slot, count, stride_, light_});
-    stages_.launch(
-        "scatter", count,
-        {&sizes_, materials_, material_, surface_, word_buffer_, bsdf_quad, slot, first, stride_, path});
+                   {&sky_,         around_, around_pdf_, around_keep_, around_other_, lamps_,
+                    lamp_numbers_, points_, &sizes_,     vertices_,    triangles_,    dressings_,
+                    textures_,     texels_, materials_,  word_buffer_, light_quad,    pick_quad,
+                    slot,          first,   surface_,    path,         stride_,       lights_});
+    stages_.launch("connect", count,
+                   {&sizes_, materials_, material_, look_, surface_, path, stride_, lights_});
+    stages_.launch("shadow", count,
+                   {nodes_, leaves_, &sizes_, vertices_, triangles_, dressings_, textures_, texels_, path,
+                    lights_, slot, first, shadow_salt, count, stride_, light_});
+    stages_.launch("scatter", count,
+                   {&sizes_, materials_, material_, look_, surface_, word_buffer_, bsdf_quad, slot, first,
+                    stride_, path});
     stages_.launch("survive", count,
                    {surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path});
 }

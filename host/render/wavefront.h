@@ -9,6 +9,7 @@
 
 #include "render/scene.h"
 #include "render/stages.h"
+#include "render/tables.h"
 #include "render/tree.h"
 #include "render/words.h"
 
@@ -44,6 +45,7 @@ class Wavefront {
 
   private:
     void trace(std::uint32_t first, std::uint32_t count);
+    std::uint32_t salt(unsigned bounce, bool shadow) const;
     void turn(std::uint32_t first, std::uint32_t count, unsigned bounce, Stages::Buffer path,
               Stages::Buffer slot);
 
@@ -53,13 +55,16 @@ class Wavefront {
     vndf_render_view view_;
     vndf_render_sky sky_;
     vndf_render_sizes sizes_;
-    bool shines_;  // any surface by itself
+    bool media_, dressed_, shines_;  // whether the program has these stages
+    Lamps lamp_table_;
     Words words_;
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
-    Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, word_buffer_;
-    Stages::Buffer path_[2], slot_[2], hit_[2], triangle_[2], lights_, surface_, material_, from_, offset_,
-        light_, film_;
+    Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, dressings_, textures_, texels_;
+    Stages::Buffer around_, around_pdf_, around_keep_, around_other_, lamps_, lamp_numbers_, lamp_densities_,
+        points_, word_buffer_;
+    Stages::Buffer path_[2], slot_[2], hit_[2], triangle_[2], lights_, surface_, material_, look_, from_,
+        offset_, light_, film_;
 };
 
 }  // namespace vndf::render

@@ -22,7 +22,11 @@ VNDF_RENDER_KERNEL vndf_render_generate(const struct vndf_render_view view, VNDF
     const float dy = VNDF_FMA(x, view.right_y, VNDF_FMA(y, view.up_y, view.forward_y));
     const float dz = VNDF_FMA(x, view.right_z, VNDF_FMA(y, view.up_z, view.forward_z));
     const float scale = 1.0f / VNDF_SQRT(VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz)));
-    vndf_render_store(vndf_render_vector_of(view.x, view.y, view.z), path, VNDF_PATH_X, stride, i);
+    vndf_render_store(
+        vndf_render_vector_of(VNDF_FMA(x, view.shift_right_x, VNDF_FMA(y, view.shift_up_x, view.x)),
+                              VNDF_FMA(x, view.shift_right_y, VNDF_FMA(y, view.shift_up_y, view.y)),
+                              VNDF_FMA(x, view.shift_right_z, VNDF_FMA(y, view.shift_up_z, view.z))),
+        path, VNDF_PATH_X, stride, i);
     vndf_render_store(vndf_render_vector_of(dx * scale, dy * scale, dz * scale), path, VNDF_PATH_DX, stride,
                       i);
     vndf_render_store(vndf_render_vector_of(1.0f, 1.0f, 1.0f), path, VNDF_PATH_RED, stride, i);

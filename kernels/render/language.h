@@ -14,6 +14,7 @@
 #define VNDF_RENDER_OUT(type) __global type* restrict
 #define VNDF_RENDER_FROM(type) __global const type*
 #define VNDF_RENDER_TO(type) __global type*
+#define VNDF_RENDER_CONSTANT __constant
 #define VNDF_RENDER_ITEM ((uint)get_global_id(0))
 #define VNDF_RENDER_8(x) ((float8)(x))
 #define VNDF_RENDER_BYTES(mask) as_ulong(convert_char8(mask))
@@ -32,6 +33,7 @@
 #define VNDF_RENDER_OUT(type) type*
 #define VNDF_RENDER_FROM(type) const type*
 #define VNDF_RENDER_TO(type) type*
+#define VNDF_RENDER_CONSTANT [[maybe_unused]] static const
 #define VNDF_RENDER_ITEM vndf_render_item
 #define VNDF_RENDER_8(x) (float8{} + (x))
 #define VNDF_RENDER_BYTES(mask) vndf_render_bytes(mask)

@@ -1,12 +1,26 @@
 // Stages: directions towards the lights, and the light of the paths that leave the scene.
 //
-// The lights are the sky and a sun in it, both at infinity. A sample goes to the sun with the probability sun_share, else to
-// the sky above the horizon by its cosine; what counts is the density of both together.
+// A sample goes to one kind of light, each with its share (vndf_render_sky): to the sun; to the sky above the horizon by its
+// cosine, or to the environment by its brightness (environment.h); to a triangle that shines; to a light at a point. What counts for
+// the first two, which are at infinity, is the density of both together.
 #ifndef VNDF_RENDER_LIGHTS_H
 #define VNDF_RENDER_LIGHTS_H
 
+#include "environment.h"
 #include "random.h"
-#include "vector.h"
+#include "texture.h"
+
+// What comes from a direction at infinity, and the density with which it is sampled.
+struct vndf_render_far {
+    struct vndf_render_vector radiance;
+    float pdf;
+};
+
+// A sample of light: `pdf` as VNDF_LIGHT_PDF.
+struct vndf_render_lit {
+    struct vndf_render_vector direction, radiance;
+    float pdf, distance;
+};
 
 // 1 - cos of the angle to the middle of the sun, of directions near it without cancellation.
 VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, float z) {
@@ -14,15 +28,9 @@ VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, floa
     return 0.5f * VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz));
 }
 
-VNDF_FN float vndf_render_light_pdf(struct vndf_render_sky sky, float up, int in_sun) {
-    const float sun = in_sun ? sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap) : 0.0f;
-    return VNDF_FMA(VNDF_1_PI * vndf_impl_max(up, 0.0f), 1.0f - sky.sun_share, sun);
-}
-
 // One channel of the sky.
-VNDF_FN float vndf_render_radiance(float zenith, float horizon, float ground, float low4, int above,
-                                   float sun, int in_sun) {
-    return (above ? VNDF_FMA(horizon - zenith, low4, zenith) : ground) + (in_sun ? sun : 0.0f);
+VNDF_FN float vndf_render_radiance(float zenith, float horizon, float ground, float low4, int above) {
+    return above ? VNDF_FMA(horizon - zenith, low4, zenith) : ground;
 }
 
 // (1 - up)^4.
@@ -31,38 +39,235 @@ VNDF_FN float vndf_render_low4(float up) {
     return low2 * low2;
 }
 
-VNDF_RENDER_KERNEL vndf_render_lights(const struct vndf_render_sky sky, VNDF_RENDER_IN(uint) words,
-                                      const uint quad, VNDF_RENDER_IN(uint) slot, const uint first,
-                                      VNDF_RENDER_IN(float) surface, const uint stride,
-                                      VNDF_RENDER_OUT(float) light) {
-    const uint i = VNDF_RENDER_ITEM;
-    const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
-    const int to_sun = u.a < sky.sun_share;
-    // About the middle of the sun, even in 1 - cos; about the zenith, even in cos^2.
-    const float gap = to_sun ? u.b * sky.sun_gap : 1.0f - VNDF_SQRT(u.b);
+VNDF_FN struct vndf_render_far vndf_render_far_of(struct vndf_render_sky sky, VNDF_RENDER_FROM(float) around,
+                                                  VNDF_RENDER_FROM(float) around_pdf,
+                                                  struct vndf_render_vector w) {
+    const int in_sun = vndf_render_gap(sky, w.x, w.y, w.z) <= sky.sun_gap, above = w.y >= 0.0f;
+    const float low4 = vndf_render_low4(w.y);
+    float pdf = VNDF_1_PI * vndf_impl_max(w.y, 0.0f);
+    struct vndf_render_vector radiance = vndf_render_vector_of(
+        vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4, above),
+        vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green, low4, above),
+        vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, above));
+#if VNDF_RENDER_ENVIRONMENT
+    const int there = sky.side > 0;
+    const uint side = there ? sky.side : 1;
+    const struct vndf_render_vector image = vndf_render_env_radiance(around, side, w);
+    const float image_pdf = vndf_render_env_pdf(around_pdf, side, w);
+    radiance = vndf_render_vector_of(there ? image.x : radiance.x, there ? image.y : radiance.y,
+                                     there ? image.z : radiance.z);
+    pdf = there ? image_pdf : pdf;
+#else
+    (void)around;
+    (void)around_pdf;
+#endif
+    const float sun = in_sun ? sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap) : 0.0f;
+    struct vndf_render_far far;
+    far.radiance = vndf_render_vector_of(radiance.x + (in_sun ? sky.sun_red : 0.0f),
+                                         radiance.y + (in_sun ? sky.sun_green : 0.0f),
+                                         radiance.z + (in_sun ? sky.sun_blue : 0.0f));
+    far.pdf = VNDF_FMA(pdf, sky.sky_share, sun);
+    return far;
+}
+
+// A direction about the middle of the sun, even in 1 - cos; or about the zenith, even in cos^2.
+VNDF_FN struct vndf_render_vector vndf_render_up_or_sun(struct vndf_render_sky sky, int to_sun, float b,
+                                                        float c) {
+    const float gap = to_sun ? b * sky.sun_gap : 1.0f - VNDF_SQRT(b);
     const float radius = VNDF_SQRT(gap * (2.0f - gap)), height = 1.0f - gap;
-    const float a = radius * vndf_impl_circle_cos(u.c), b = radius * vndf_impl_circle_sin(u.c);
+    const float x = radius * vndf_impl_circle_cos(c), y = radius * vndf_impl_circle_sin(c);
     const float nx = to_sun ? sky.sun_x : 0.0f, ny = to_sun ? sky.sun_y : 1.0f,
                 nz = to_sun ? sky.sun_z : 0.0f;
     // Duff et al., Building an Orthonormal Basis, Revisited, 2017, about y, which is up.
-    const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), c = nx * nz * k;
-    const float x = VNDF_FMA(a, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(b, c, height * nx));
-    const float y = VNDF_FMA(a, -s * nx, VNDF_FMA(b, -nz, height * ny));
-    const float z = VNDF_FMA(a, s * c, VNDF_FMA(b, VNDF_FMA(nz * nz, k, s), height * nz));
-    const int in_sun = vndf_render_gap(sky, x, y, z) <= sky.sun_gap;
-    const float low4 = vndf_render_low4(y);
-    const struct vndf_render_vector wi = vndf_render_vector_of(x, y, z);
-    vndf_render_store(wi, light, VNDF_LIGHT_DX, stride, i);
-    light[VNDF_LIGHT_RED * stride + i] = vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red,
-                                                              low4, y >= 0.0f, sky.sun_red, in_sun);
-    light[VNDF_LIGHT_GREEN * stride + i] = vndf_render_radiance(
-        sky.zenith_green, sky.horizon_green, sky.ground_green, low4, y >= 0.0f, sky.sun_green, in_sun);
-    light[VNDF_LIGHT_BLUE * stride + i] = vndf_render_radiance(
-        sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, y >= 0.0f, sky.sun_blue, in_sun);
-    light[VNDF_LIGHT_PDF * stride + i] = vndf_render_light_pdf(sky, y, in_sun);
+    const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), both = nx * nz * k;
+    return vndf_render_vector_of(VNDF_FMA(x, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(y, both, height * nx)),
+                                 VNDF_FMA(x, -s * nx, VNDF_FMA(y, -nz, height * ny)),
+                                 VNDF_FMA(x, s * both, VNDF_FMA(y, VNDF_FMA(nz * nz, k, s), height * nz)));
+}
+
+#if VNDF_RENDER_NEAR_LIGHT
+// Which of `count` rows to look at first, by a number in [0, 1).
+VNDF_FN uint vndf_render_row_by(float a, uint count) {
+    const uint row = (uint)(int)(a * (float)(int)count);
+    return row < count ? row : (count > 0 ? count - 1 : 0);
+}
+#endif
+
+#if VNDF_RENDER_LAMP
+// What a surface shines with at a place.
+VNDF_FN struct vndf_render_vector vndf_render_shining(struct vndf_render_looks looks,
+                                                      struct vndf_render_spot spot,
+                                                      VNDF_RENDER_FROM(float) materials) {
+    const uint count = looks.sizes.materials;
+    struct vndf_render_vector own =
+        vndf_render_vector_of(materials[VNDF_MATERIAL_EMISSION * count + spot.material],
+                              materials[(VNDF_MATERIAL_EMISSION + 1) * count + spot.material],
+                              materials[(VNDF_MATERIAL_EMISSION + 2) * count + spot.material]);
+#if VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
+    const struct vndf_render_vector look = vndf_render_emission_look(looks, spot);
+    own = vndf_render_vector_of(own.x * look.x, own.y * look.y, own.z * look.z);
+#endif
+    return own;
+}
+
+// Towards a triangle that shines, picked by its chance, and a point of it, even in area.
+VNDF_FN struct vndf_render_lit vndf_render_to_lamp(struct vndf_render_looks looks,
+                                                   VNDF_RENDER_FROM(float) materials,
+                                                   VNDF_RENDER_FROM(float) lamps,
+                                                   VNDF_RENDER_FROM(uint) lamp_numbers, uint count,
+                                                   struct vndf_render_vector from,
+                                                   struct vndf_render_quad pick, float d, float e) {
+    const uint first = vndf_render_row_by(pick.a, count);
+    const uint lamp = pick.b < lamps[VNDF_LAMP_KEEP * count + first]
+                          ? first
+                          : lamp_numbers[VNDF_LAMP_OTHER * count + first];
+    const uint triangle = lamp_numbers[VNDF_LAMP_TRIANGLE * count + lamp];
+    const float root = VNDF_SQRT(d), b2 = root * e, b1 = root - b2;
+    const struct vndf_render_spot spot = vndf_render_spot_of(looks, triangle, b1, b2);
+    const struct vndf_render_vector a = vndf_render_vector_at(looks.vertices, VNDF_VERTEX_PLACE,
+                                                              looks.sizes.vertices, spot.first),
+                                    b = vndf_render_vector_at(looks.vertices, VNDF_VERTEX_PLACE,
+                                                              looks.sizes.vertices, spot.second),
+                                    c = vndf_render_vector_at(looks.vertices, VNDF_VERTEX_PLACE,
+                                                              looks.sizes.vertices, spot.third);
+    const struct vndf_render_vector ab = vndf_render_sum(b, -1.0f, a), ac = vndf_render_sum(c, -1.0f, a);
+    const struct vndf_render_vector way =
+        vndf_render_sum(vndf_render_sum(vndf_render_sum(a, b1, ab), b2, ac), -1.0f, from);
+    const float square = vndf_render_dot(way, way);
+    struct vndf_render_lit lit;
+    lit.distance = VNDF_SQRT(square);
+    lit.direction = vndf_render_unit_vector(way);
+    const float cosine =
+        vndf_impl_abs(vndf_render_dot(vndf_render_unit_vector(vndf_render_cross(ab, ac)), lit.direction));
+    lit.pdf = vndf_impl_min(lamps[VNDF_LAMP_DENSITY * count + lamp] * square / vndf_impl_max(cosine, 1e-20f),
+                            1e30f);
+    lit.radiance = vndf_render_shining(looks, spot, materials);
+    return lit;
+}
+#endif
+
+#if VNDF_RENDER_POINT_LIGHT
+// Towards a light at a point, or at infinity. The radiance is the irradiance that it makes where it is faced.
+// Source: KHR_lights_punctual.
+VNDF_FN struct vndf_render_lit vndf_render_to_point(VNDF_RENDER_FROM(float) points, uint count,
+                                                    struct vndf_render_vector from,
+                                                    struct vndf_render_quad pick) {
+    const uint first = vndf_render_row_by(pick.a, count);
+    const uint row = pick.b < points[VNDF_POINT_KEEP * count + first]
+                         ? first
+                         : (uint)(int)points[VNDF_POINT_OTHER * count + first];
+    const struct vndf_render_vector axis = vndf_render_vector_at(points, VNDF_POINT_AXIS, count, row);
+    const struct vndf_render_vector way =
+        vndf_render_sum(vndf_render_vector_at(points, VNDF_POINT_PLACE, count, row), -1.0f, from);
+    const int far = points[VNDF_POINT_FAR * count + row] > 0.0f;
+    const float square = vndf_render_dot(way, way);
+    const struct vndf_render_vector unit = vndf_render_unit_vector(way);
+    struct vndf_render_lit lit;
+    lit.direction =
+        vndf_render_vector_of(far ? -axis.x : unit.x, far ? -axis.y : unit.y, far ? -axis.z : unit.z);
+    lit.distance = far ? VNDF_RENDER_ANYWHERE : VNDF_SQRT(square);
+    const float within = vndf_impl_max(
+        vndf_impl_min(VNDF_FMA(points[VNDF_POINT_SLOPE * count + row], -vndf_render_dot(lit.direction, axis),
+                               points[VNDF_POINT_OFFSET * count + row]),
+                      1.0f),
+        0.0f);
+    const float scale = within * within / (far || square == 0.0f ? 1.0f : square);
+    lit.radiance = vndf_render_scaled(scale, vndf_render_vector_at(points, VNDF_POINT_RED, count, row));
+    lit.pdf = -points[VNDF_POINT_CHANCE * count + row];
+    return lit;
+}
+#endif
+
+// The sample of another kind of light in this one's place, if `other`.
+VNDF_FN struct vndf_render_lit vndf_render_rather(struct vndf_render_lit own, struct vndf_render_lit its,
+                                                  float share, int other) {
+    struct vndf_render_lit lit;
+    lit.direction = vndf_render_vector_of(other ? its.direction.x : own.direction.x,
+                                          other ? its.direction.y : own.direction.y,
+                                          other ? its.direction.z : own.direction.z);
+    lit.radiance = vndf_render_vector_of(other ? its.radiance.x : own.radiance.x,
+                                         other ? its.radiance.y : own.radiance.y,
+                                         other ? its.radiance.z : own.radiance.z);
+    lit.pdf = other ? share * its.pdf : own.pdf;
+    lit.distance = other ? its.distance : own.distance;
+    return lit;
+}
+
+VNDF_RENDER_KERNEL vndf_render_lights(
+    const struct vndf_render_sky sky, VNDF_RENDER_IN(float) around, VNDF_RENDER_IN(float) around_pdf,
+    VNDF_RENDER_IN(float) around_keep, VNDF_RENDER_IN(uint) around_other, VNDF_RENDER_IN(float) lamps,
+    VNDF_RENDER_IN(uint) lamp_numbers, VNDF_RENDER_IN(float) points, const struct vndf_render_sizes sizes,
+    VNDF_RENDER_IN(float) vertices, VNDF_RENDER_IN(uint) triangles, VNDF_RENDER_IN(float) dressings,
+    VNDF_RENDER_IN(uint) textures, VNDF_RENDER_IN(uint) texels, VNDF_RENDER_IN(float) materials,
+    VNDF_RENDER_IN(uint) words, const uint quad, const uint pick_quad, VNDF_RENDER_IN(uint) slot,
+    const uint first, VNDF_RENDER_IN(float) surface, VNDF_RENDER_IN(float) path, const uint stride,
+    VNDF_RENDER_OUT(float) light) {
+    const uint i = VNDF_RENDER_ITEM;
+    const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
+    const int to_sun = u.a < sky.sun_share;
+    struct vndf_render_lit lit;
+    lit.direction = vndf_render_up_or_sun(sky, to_sun, u.b, u.c);
+#if VNDF_RENDER_PICKED_LIGHT
+    const struct vndf_render_quad pick =
+        vndf_render_random(words + VNDF_QUAD_WORDS * pick_quad, first + slot[i]);
+#else
+    (void)pick_quad;
+#endif
+#if VNDF_RENDER_ENVIRONMENT
+    const int by_image = !to_sun && sky.side > 0;
+    const struct vndf_render_vector image =
+        vndf_render_env_sample(around, around_pdf, around_keep, around_other, sky.side > 0 ? sky.side : 1,
+                               pick.a, pick.b, u.b, u.c)
+            .direction;
+    lit.direction =
+        vndf_render_vector_of(by_image ? image.x : lit.direction.x, by_image ? image.y : lit.direction.y,
+                              by_image ? image.z : lit.direction.z);
+#else
+    (void)around_keep;
+    (void)around_other;
+#endif
+    const struct vndf_render_far far = vndf_render_far_of(sky, around, around_pdf, lit.direction);
+    lit.radiance = far.radiance;
+    lit.pdf = far.pdf;
+    lit.distance = VNDF_RENDER_ANYWHERE;
+#if VNDF_RENDER_NEAR_LIGHT
+    const struct vndf_render_vector from = vndf_render_vector_at(path, VNDF_PATH_X, stride, i);
+    const float beyond = u.a - sky.sun_share - sky.sky_share;
+#else
+    (void)path;
+#endif
+#if VNDF_RENDER_LAMP
+    const struct vndf_render_looks looks =
+        vndf_render_looks_of(sizes, vertices, triangles, dressings, textures, texels);
+    lit = vndf_render_rather(
+        lit, vndf_render_to_lamp(looks, materials, lamps, lamp_numbers, sky.lamps, from, pick, u.b, u.c),
+        sky.lamp_share, beyond >= 0.0f && sky.lamps > 0);
+#else
+    (void)lamps;
+    (void)lamp_numbers;
+    (void)sizes;
+    (void)vertices;
+    (void)triangles;
+    (void)dressings;
+    (void)textures;
+    (void)texels;
+    (void)materials;
+#endif
+#if VNDF_RENDER_POINT_LIGHT
+    lit = vndf_render_rather(lit, vndf_render_to_point(points, sky.points, from, pick), sky.point_share,
+                             beyond >= sky.lamp_share && sky.points > 0);
+#else
+    (void)points;
+#endif
+    vndf_render_store(lit.direction, light, VNDF_LIGHT_DX, stride, i);
+    vndf_render_store(lit.radiance, light, VNDF_LIGHT_RED, stride, i);
+    light[VNDF_LIGHT_PDF * stride + i] = lit.pdf;
+#if VNDF_RENDER_NEAR_LIGHT
+    light[VNDF_LIGHT_DISTANCE * stride + i] = lit.distance;
+#endif
     const struct vndf_render_vector framed =
         vndf_render_local(vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
-                          vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i), wi);
+                          vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i), lit.direction);
     vndf_render_store(framed, light, VNDF_LIGHT_X, stride, i);
 }
 
@@ -85,24 +290,16 @@ VNDF_FN void vndf_render_add_light(struct vndf_render_vector radiance, float kep
     light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] * radiance.z;
 }
 
-VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_RENDER_IN(float) path,
+VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_RENDER_IN(float) around,
+                                     VNDF_RENDER_IN(float) around_pdf, VNDF_RENDER_IN(float) path,
                                      VNDF_RENDER_IN(uint) triangle, VNDF_RENDER_IN(uint) slot,
                                      const uint count, const uint stride, VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
-    const float x = path[VNDF_PATH_DX * stride + i], y = path[VNDF_PATH_DY * stride + i],
-                z = path[VNDF_PATH_DZ * stride + i];
-    const int in_sun = vndf_render_gap(sky, x, y, z) <= sky.sun_gap;
-    const float pdf = vndf_render_light_pdf(sky, y, in_sun), low4 = vndf_render_low4(y);
-    const float weight = vndf_render_mis(pdf / path[VNDF_PATH_PDF * stride + i]);
+    const struct vndf_render_far far =
+        vndf_render_far_of(sky, around, around_pdf, vndf_render_vector_at(path, VNDF_PATH_DX, stride, i));
+    const float weight = vndf_render_mis(far.pdf / path[VNDF_PATH_PDF * stride + i]);
     const int left = triangle[i] == VNDF_MISS && i < count;
-    const struct vndf_render_vector radiance =
-        vndf_render_vector_of(vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4,
-                                                   y >= 0.0f, sky.sun_red, in_sun),
-                              vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green,
-                                                   low4, y >= 0.0f, sky.sun_green, in_sun),
-                              vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4,
-                                                   y >= 0.0f, sky.sun_blue, in_sun));
-    vndf_render_add_light(radiance, left ? weight : 0.0f, path, slot, count, stride, i, light);
+    vndf_render_add_light(far.radiance, left ? weight : 0.0f, path, slot, count, stride, i, light);
 }
 
 #endif

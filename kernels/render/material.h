@@ -6,6 +6,7 @@
 #define VNDF_RENDER_MATERIAL_H
 
 #include "../vndf/bsdf.h"
+#include "effects.h"
 #include "language.h"
 #include "queues.h"
 
@@ -56,6 +57,64 @@ VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, st
     return vndf_impl_rgb(materials[plane * row.count + row.number],
                          row.one * materials[(plane + 1) * row.count + row.number],
                          row.one * (row.one * materials[(plane + 2) * row.count + row.number]));
+}
+
+// How a path's material looks at the place where it is (dress.h).
+struct vndf_render_look {
+    VNDF_RENDER_FROM(float) planes;
+    uint stride, i;
+};
+VNDF_FN struct vndf_render_look vndf_render_look_of(VNDF_RENDER_FROM(float) planes, uint stride, uint i) {
+    struct vndf_render_look look;
+    look.planes = planes;
+    look.stride = stride;
+    look.i = i;
+    return look;
+}
+VNDF_FN float vndf_render_looks_like(struct vndf_render_look look, uint plane) {
+    return look.planes[plane * look.stride + look.i];
+}
+VNDF_FN struct vndf_rgb vndf_render_times(struct vndf_rgb rgb, struct vndf_render_look look, uint plane) {
+    return vndf_impl_rgb(rgb.r * vndf_render_looks_like(look, plane),
+                         rgb.g * vndf_render_looks_like(look, plane + 1),
+                         rgb.b * vndf_render_looks_like(look, plane + 2));
+}
+
+// What textures change of a material.
+VNDF_FN struct vndf_bsdf vndf_render_dressed(struct vndf_bsdf b, struct vndf_render_look look) {
+#if VNDF_RENDER_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
+#if VNDF_CONDUCTOR && (VNDF_CHOSEN(VNDF_FRESNEL, schlick) || VNDF_CHOSEN(VNDF_FRESNEL, f82))
+    b.f0 = vndf_render_times(b.f0, look, VNDF_LOOK_BASE);
+#endif
+#if VNDF_LAMBERT
+    b.albedo = vndf_render_times(b.albedo, look, VNDF_LOOK_BASE);
+#endif
+#if VNDF_DIELECTRIC && VNDF_TINT
+    b.transmittance = vndf_render_times(b.transmittance, look, VNDF_LOOK_BASE);
+#endif
+#endif
+#if VNDF_RENDER_ROUGHNESS_TEXTURE || VNDF_RENDER_LAYER_TEXTURE
+#if VNDF_CONDUCTOR || VNDF_DIELECTRIC
+    b.alpha_x = vndf_render_looks_like(look, VNDF_LOOK_ALPHA_X);
+#if VNDF_ANISOTROPIC
+    b.alpha_y = vndf_render_looks_like(look, VNDF_LOOK_ALPHA_Y);
+#endif
+#endif
+#endif
+#if VNDF_RENDER_ROUGHNESS_TEXTURE && VNDF_CONDUCTOR && (VNDF_LAMBERT || VNDF_DIELECTRIC)
+    b.metal *= vndf_render_looks_like(look, VNDF_LOOK_METAL);
+#endif
+#if VNDF_RENDER_LAYER_TEXTURE
+#if VNDF_DIELECTRIC && VNDF_LAMBERT
+    b.transmission *= vndf_render_looks_like(look, VNDF_LOOK_TRANSMISSION);
+#endif
+#if VNDF_COAT
+    b.coat *= vndf_render_looks_like(look, VNDF_LOOK_COAT);
+    b.coat_alpha = vndf_render_looks_like(look, VNDF_LOOK_COAT_ALPHA);
+#endif
+#endif
+    (void)look;
+    return b;
 }
 
 // A material of the table, at a point with this geometric normal in its frame. channel: that light is carried in, of a surface

@@ -17,6 +17,7 @@ struct vndf_render_packet {
     struct vndf_render_hit hit[VNDF_PACKET];
     // Of each once more, for eight at a time.
     float inverse_x[VNDF_PACKET], inverse_y[VNDF_PACKET], inverse_z[VNDF_PACKET], t[VNDF_PACKET];
+    struct vndf_render_veil veil[VNDF_PACKET];
 };
 
 // All rays from a point whose inverse directions lie between two of the same signs.
@@ -26,7 +27,9 @@ struct vndf_render_beam {
     float t;  // how far they go
 };
 
-VNDF_FN void vndf_render_add(struct vndf_render_packet* packet, int k, struct vndf_render_ray ray) {
+VNDF_FN void vndf_render_add(struct vndf_render_packet* packet, int k, struct vndf_render_ray ray,
+                             struct vndf_render_veil veil) {
+    packet->veil[k] = veil;
     packet->ray[k] = ray;
     packet->hit[k] = vndf_render_no_hit();
     packet->inverse_x[k] = ray.inverse_x;
@@ -110,7 +113,7 @@ VNDF_FN float vndf_render_packet_leaf(VNDF_RENDER_FROM(float) leaf, struct vndf_
         ulong lanes = VNDF_RENDER_BYTES(vndf_render_leaf_box(leaf, packet, eight) >= VNDF_RENDER_8(0.0f));
         while (lanes != 0) {
             const int lane = vndf_render_last_lane(lanes), k = 8 * eight + lane;
-            packet->hit[k] = vndf_render_leaf(leaf, packet->ray[k], packet->hit[k]);
+            packet->hit[k] = vndf_render_leaf(leaf, packet->ray[k], packet->hit[k], packet->veil[k]);
             packet->t[k] = packet->hit[k].t;
             lanes = vndf_render_lanes_below(lanes, lane);
         }

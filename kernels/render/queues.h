@@ -23,9 +23,10 @@
 #define VNDF_HIT_B2 1
 #define VNDF_HIT_PLANES 2
 #define VNDF_MISS 0xffffffffu
+#define VNDF_RENDER_ANYWHERE 3.0e38f  // farther than any hit
 
 // A direction towards the lights, in the world and in the surface's frame, what comes from there, later what of it arrives, and
-// its density.
+// its density: negative of a light without extent, which no other sample meets.
 #define VNDF_LIGHT_DX 0
 #define VNDF_LIGHT_DY 1
 #define VNDF_LIGHT_DZ 2
@@ -36,7 +37,8 @@
 #define VNDF_LIGHT_X 7
 #define VNDF_LIGHT_Y 8
 #define VNDF_LIGHT_Z 9
-#define VNDF_LIGHT_PLANES 10
+#define VNDF_LIGHT_DISTANCE 10  // with lights that have a place
+#define VNDF_LIGHT_PLANES 11
 
 // A surface: normal and tangent in the world; where the path comes from and the geometric normal in the frame that they make.
 #define VNDF_SURFACE_NORMAL 0
@@ -44,7 +46,21 @@
 #define VNDF_SURFACE_WO 6
 #define VNDF_SURFACE_GEOMETRIC 9
 #define VNDF_SURFACE_OFFSET 12  // how far rays begin from the surface; negative where it is seen from behind
-#define VNDF_SURFACE_PLANES 13
+#define VNDF_SURFACE_SOLID 13   // with VNDF_RENDER_LAMP: squared way to it over the cosine there
+#define VNDF_SURFACE_PLANES 14
+
+// How a material looks at a place, where that differs from place to place: factors, but for the alphas (dress.h).
+#define VNDF_LOOK_BASE 0
+#define VNDF_LOOK_METAL 3
+#define VNDF_LOOK_ALPHA_X 4
+#define VNDF_LOOK_ALPHA_Y 5
+#define VNDF_LOOK_TRANSMISSION 6
+#define VNDF_LOOK_COAT 7
+#define VNDF_LOOK_COAT_ALPHA 8
+#define VNDF_LOOK_SPECULAR 9
+#define VNDF_LOOK_SPECULAR_COLOUR 10
+#define VNDF_LOOK_EMISSION 13
+#define VNDF_LOOK_PLANES 16
 
 // The film, by pixel: sums over the samples, the luminance of those with an odd number, and how often a sample was no number.
 #define VNDF_FILM_RED 0
@@ -60,6 +76,8 @@
 #define VNDF_QUAD_LIGHT 1   // a: which light, b, c: the direction, d: the channel of a dispersion
 #define VNDF_QUAD_BSDF 2    // a, b: the direction, c: the lobe, d: survival
 #define VNDF_QUAD_BOUNCE 2  // of each bounce
+// Behind those of all bounces, one for each: a: which light or part of the sky, b: whether it or its alias.
+#define VNDF_QUAD_PICK(bounces) (1 + VNDF_QUAD_BOUNCE * (bounces))
 #define VNDF_QUAD_WORDS 9
 
 // A node of the tree: eight boxes and children, 64 floats. A child >= 0 is a node, one below is the leaf ~child.
@@ -86,7 +104,10 @@
 #define VNDF_TRIANGLE_PLANES 4
 #define VNDF_VERTEX_PLACE 0
 #define VNDF_VERTEX_NORMAL 3
-#define VNDF_VERTEX_PLANES 6
+#define VNDF_VERTEX_UV 6  // of two sets
+#define VNDF_VERTEX_TANGENT 10
+#define VNDF_VERTEX_COLOUR 14
+#define VNDF_VERTEX_PLANES 18
 #define VNDF_MATERIAL_ALPHA_X 0
 #define VNDF_MATERIAL_ALPHA_Y 1
 #define VNDF_MATERIAL_METAL 2
@@ -105,10 +126,69 @@
 #define VNDF_MATERIAL_EMISSION 27
 #define VNDF_MATERIAL_PLANES 30
 
+// What textures make of a material: for each slot the texture, or -1, the set of coordinates and their transform; and the factors
+// that a texture's value goes into before the material's numbers are made.
+#define VNDF_SLOT_BASE_COLOUR 0
+#define VNDF_SLOT_METALLIC_ROUGHNESS 1
+#define VNDF_SLOT_NORMAL 2
+#define VNDF_SLOT_EMISSIVE 3
+#define VNDF_SLOT_TRANSMISSION 4
+#define VNDF_SLOT_COAT 5
+#define VNDF_SLOT_COAT_ROUGHNESS 6
+#define VNDF_SLOT_SPECULAR 7
+#define VNDF_SLOT_SPECULAR_COLOUR 8
+#define VNDF_SLOT_ANISOTROPY 9
+#define VNDF_DRESSING_SLOT(slot) (8 * (slot))
+#define VNDF_DRESSING_ROUGHNESS 80
+#define VNDF_DRESSING_ANISOTROPY 81
+#define VNDF_DRESSING_TURN 82  // cosine and sine of the angle from the mesh's tangent to the material's
+#define VNDF_DRESSING_NORMAL_SCALE 84
+#define VNDF_DRESSING_OPACITY 85
+#define VNDF_DRESSING_CUTOFF 86  // of the opacity; or one of the two below
+#define VNDF_DRESSING_COAT_ROUGHNESS 87
+#define VNDF_DRESSING_UNLIT 88
+#define VNDF_DRESSING_PLANES 89
+#define VNDF_ALPHA_OPAQUE -1.0f
+#define VNDF_ALPHA_BLEND -2.0f
+
+// Textures: where their texels begin, and bits: how the coordinates go on beyond 0 and 1, each way, and whether the nearest texel
+// is taken as it is.
+#define VNDF_TEXTURE_OFFSET 0
+#define VNDF_TEXTURE_WIDTH 1
+#define VNDF_TEXTURE_HEIGHT 2
+#define VNDF_TEXTURE_MODE 3
+#define VNDF_TEXTURE_PLANES 4
+#define VNDF_WRAP_REPEAT 0u
+#define VNDF_WRAP_CLAMP 1u
+#define VNDF_WRAP_MIRROR 2u
+
+// Triangles that shine, to pick one by Walker's alias method: what it is kept with, and its chance per unit of area; and in whole
+// numbers what it stands for else, and the triangle.
+#define VNDF_LAMP_KEEP 0
+#define VNDF_LAMP_DENSITY 1
+#define VNDF_LAMP_PLANES 2
+#define VNDF_LAMP_OTHER 0
+#define VNDF_LAMP_TRIANGLE 1
+#define VNDF_LAMP_NUMBER_PLANES 2
+
+// Lights at a point, or at infinity: as above; where they are, where they shine, candela over the chance to be picked (or lux),
+// and what the cosine to their axis is multiplied with and raised by for the share that arrives.
+#define VNDF_POINT_KEEP 0
+#define VNDF_POINT_OTHER 1
+#define VNDF_POINT_FAR 2  // 1: directional
+#define VNDF_POINT_PLACE 3
+#define VNDF_POINT_AXIS 6
+#define VNDF_POINT_RED 9
+#define VNDF_POINT_SLOPE 12
+#define VNDF_POINT_OFFSET 13
+#define VNDF_POINT_CHANCE 14
+#define VNDF_POINT_PLANES 15
+
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {
     unsigned int vertices, triangles, materials;
     float one;
+    unsigned int textures;
 };
 
 // Paths counted by one item of the compaction.
@@ -120,6 +200,9 @@ struct vndf_render_view {
     float right_x, right_y, right_z;  // from the middle of the film to its right edge, at distance 1
     float up_x, up_y, up_z;           // to its upper edge
     float forward_x, forward_y, forward_z;
+    // The same from where a ray at the middle of the film begins to where one at its edge does; 0 but of parallel rays.
+    float shift_right_x, shift_right_y, shift_right_z;
+    float shift_up_x, shift_up_y, shift_up_z;
     unsigned int width, height;
 };
 
@@ -132,7 +215,10 @@ struct vndf_render_sky {
     float sun_red, sun_green, sun_blue;
     float sun_x, sun_y, sun_z;  // towards its middle
     float sun_gap;              // 1 - cos of its radius
-    float sun_share;            // of the samples of light that go there
+    // Shares of the samples of light: of the sun, of the sky or the environment, of triangles that shine, of lights at a point.
+    float sun_share, sky_share, lamp_share, point_share;
+    unsigned int side;  // cells of the environment each way; 0: there is none, but the sky
+    unsigned int lamps, points;
 };
 
 #endif

@@ -25,6 +25,12 @@ VNDF_FN float vndf_render_unit(uint bits24) {
     return (float)(int)bits24 * 5.9604644775390625e-08f;
 }
 
+VNDF_FN uint vndf_render_hash(uint x) {  // lowbias32, Wellons 2018
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
 #if VNDF_CAT(VNDF_RANDOM_IS_, VNDF_RANDOM) == VNDF_RANDOM_IS_philox
 
 #ifndef R123_STATIC_INLINE
@@ -45,12 +51,6 @@ VNDF_FN struct vndf_render_quad vndf_render_random(VNDF_RENDER_FROM(uint) words,
 }
 
 #else
-
-VNDF_FN uint vndf_render_hash(uint x) {  // lowbias32, Wellons 2018
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
 
 // The lower 24 bits in reverse, the lowest on top. none: 0, a number that the compiler does not know, which would make an
 // instruction of it that Oclgrind lacks.

@@ -26,13 +26,14 @@ VNDF_FN int vndf_render_channel(VNDF_RENDER_FROM(float) path, uint stride, uint 
 }
 VNDF_FN struct vndf_bsdf vndf_render_bsdf_at(struct vndf_render_sizes sizes,
                                              VNDF_RENDER_FROM(float) materials, uint number,
-                                             VNDF_RENDER_FROM(float) surface, VNDF_RENDER_FROM(float) path,
-                                             float turn, uint stride, uint i) {
-    return vndf_render_bsdf_of(materials, vndf_render_row_of(sizes, number),
-                               vndf_render_channel(path, stride, i),
-                               turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
-                               turn * surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
-                               surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i]);
+                                             VNDF_RENDER_FROM(float) look, VNDF_RENDER_FROM(float) surface,
+                                             VNDF_RENDER_FROM(float) path, float turn, uint stride, uint i) {
+    const struct vndf_bsdf table = vndf_render_bsdf_of(
+        materials, vndf_render_row_of(sizes, number), vndf_render_channel(path, stride, i),
+        turn * surface[VNDF_SURFACE_GEOMETRIC * stride + i],
+        turn * surface[(VNDF_SURFACE_GEOMETRIC + 1) * stride + i],
+        surface[(VNDF_SURFACE_GEOMETRIC + 2) * stride + i]);
+    return vndf_render_dressed(table, vndf_render_look_of(look, stride, i));
 }
 
 // The frame of a surface is turned to where the path comes from, that of a material is not: -1 where they differ, which only a
@@ -51,33 +52,59 @@ VNDF_FN VNDF_REAL3 vndf_render_turned(VNDF_REAL3 w, float turn) {
     return VNDF_MAKE3(w.x, w.y, turn * w.z);
 }
 
-// What surfaces shine by themselves. They are no lights to sample, so that a path that meets one counts in full.
-VNDF_RENDER_KERNEL vndf_render_glow(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
-                                    VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) path,
-                                    VNDF_RENDER_IN(uint) slot, const uint count, const uint stride,
-                                    VNDF_RENDER_OUT(float) light) {
+#if VNDF_RENDER_EMISSION
+// What surfaces shine by themselves, beside what samples of them as lights bring. densities: of each triangle, its chance as a
+// light per unit of area.
+VNDF_RENDER_KERNEL vndf_render_glow(const struct vndf_render_sizes sizes, const struct vndf_render_sky sky,
+                                    VNDF_RENDER_IN(float) materials, VNDF_RENDER_IN(uint) material,
+                                    VNDF_RENDER_IN(float) look, VNDF_RENDER_IN(float) densities,
+                                    VNDF_RENDER_IN(uint) triangle, VNDF_RENDER_IN(float) surface,
+                                    VNDF_RENDER_IN(float) path, VNDF_RENDER_IN(uint) slot, const uint count,
+                                    const uint stride, VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
-    const struct vndf_rgb emission = vndf_render_rgb_at(
+    struct vndf_rgb emission = vndf_render_rgb_at(
         materials, vndf_render_row_of(sizes, i < count ? material[i] : 0), VNDF_MATERIAL_EMISSION);
-    vndf_render_add_light(vndf_render_vector_of(emission.r, emission.g, emission.b), i < count ? 1.0f : 0.0f,
-                          path, slot, count, stride, i, light);
+#if VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
+    emission = vndf_render_times(emission, vndf_render_look_of(look, stride, i), VNDF_LOOK_EMISSION);
+#else
+    (void)look;
+#endif
+#if VNDF_RENDER_LAMP
+    const float density = densities[i < count && sky.lamps > 0 ? triangle[i] : 0];
+    const float pdf =
+        sky.lamp_share * vndf_impl_min(density * surface[VNDF_SURFACE_SOLID * stride + i], 1e30f);
+    const float weight = vndf_render_mis(pdf / path[VNDF_PATH_PDF * stride + i]);
+#else
+    (void)sky;
+    (void)densities;
+    (void)triangle;
+    (void)surface;
+    const float weight = 1.0f;
+#endif
+    vndf_render_add_light(vndf_render_vector_of(emission.r, emission.g, emission.b),
+                          i < count ? weight : 0.0f, path, slot, count, stride, i, light);
 }
+#endif
 
 // The light of the direction chosen becomes what of it arrives at the eye if nothing is in its way.
 VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
-                                       VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) surface,
-                                       VNDF_RENDER_IN(float) path, const uint stride,
-                                       VNDF_RENDER_OUT(float) lights) {
+                                       VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) look,
+                                       VNDF_RENDER_IN(float) surface, VNDF_RENDER_IN(float) path,
+                                       const uint stride, VNDF_RENDER_OUT(float) lights) {
     const uint i = VNDF_RENDER_ITEM;
     const float turn = vndf_render_turn(surface, stride, i);
     const struct vndf_bsdf bsdf =
-        vndf_render_bsdf_at(sizes, materials, material[i], surface, path, turn, stride, i);
+        vndf_render_bsdf_at(sizes, materials, material[i], look, surface, path, turn, stride, i);
     const VNDF_REAL3 wi = vndf_render_argument(lights, VNDF_LIGHT_X, stride, i);
     const struct vndf_render_value value = vndf_render_evaluate(
         vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),
         vndf_render_turned(wi, turn), bsdf);
     // f / q times the power heuristic 1 / (1 + (p / q)^2) with f = weight p and the light's density q.
-    const float light_pdf = lights[VNDF_LIGHT_PDF * stride + i];
+    float light_pdf = lights[VNDF_LIGHT_PDF * stride + i];
+#if VNDF_RENDER_POINT_LIGHT
+    const int point = light_pdf < 0.0f;
+    light_pdf = vndf_impl_abs(light_pdf);
+#endif
     const float ratio = vndf_impl_min(value.pdf / vndf_impl_max(light_pdf, 1e-12f), 1e15f);
 #if VNDF_DIELECTRIC
     // Through the surface lights are not sampled, see vndf_render_scatter.
@@ -85,7 +112,12 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
 #else
     const int reached = light_pdf > 0.0f;
 #endif
-    const float share = reached ? ratio * vndf_render_mis(ratio) : 0.0f;
+    const float alone = vndf_render_mis(ratio);
+#if VNDF_RENDER_POINT_LIGHT
+    const float share = reached ? ratio * (point ? 1.0f : alone) : 0.0f;
+#else
+    const float share = reached ? ratio * alone : 0.0f;
+#endif
     struct vndf_rgb weight = value.weight;
 #if VNDF_DIELECTRIC && VNDF_ABSORPTION
     // The light comes from forever away.
@@ -116,13 +148,14 @@ VNDF_FN void vndf_render_pass(VNDF_RENDER_FROM(float) surface, int crosses, VNDF
 
 // The path turns into a direction drawn from the material.
 VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) materials,
-                                       VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) surface,
-                                       VNDF_RENDER_IN(uint) words, const uint quad, VNDF_RENDER_IN(uint) slot,
-                                       const uint first, const uint stride, VNDF_RENDER_OUT(float) path) {
+                                       VNDF_RENDER_IN(uint) material, VNDF_RENDER_IN(float) look,
+                                       VNDF_RENDER_IN(float) surface, VNDF_RENDER_IN(uint) words,
+                                       const uint quad, VNDF_RENDER_IN(uint) slot, const uint first,
+                                       const uint stride, VNDF_RENDER_OUT(float) path) {
     const uint i = VNDF_RENDER_ITEM;
     const float turn = vndf_render_turn(surface, stride, i);
     const struct vndf_bsdf bsdf =
-        vndf_render_bsdf_at(sizes, materials, material[i], surface, path, turn, stride, i);
+        vndf_render_bsdf_at(sizes, materials, material[i], look, surface, path, turn, stride, i);
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
     const struct vndf_render_direction wi =
         vndf_render_draw(vndf_render_turned(vndf_render_argument(surface, VNDF_SURFACE_WO, stride, i), turn),

@@ -4,7 +4,7 @@
 
 #include "../vndf/effects.h"
 #include "queues.h"
-#include "vector.h"
+#include "texture.h"
 
 VNDF_FN struct vndf_render_vector vndf_render_mix(struct vndf_render_vector a, struct vndf_render_vector b,
                                                   struct vndf_render_vector c, float b1, float b2) {
@@ -33,11 +33,85 @@ VNDF_FN float vndf_render_side(struct vndf_render_vector face, struct vndf_rende
 #endif
 }
 
+#if VNDF_RENDER_TANGENT || VNDF_RENDER_NORMAL_MAP
+// Along the texture coordinates, at right angles to the normal; zero where the mesh has no tangents.
+VNDF_FN struct vndf_render_vector vndf_render_mesh_tangent(struct vndf_render_looks looks,
+                                                           struct vndf_render_spot spot,
+                                                           struct vndf_render_vector normal) {
+    const struct vndf_render_vector t =
+        vndf_render_vector_of(vndf_render_vertex(looks, spot, VNDF_VERTEX_TANGENT),
+                              vndf_render_vertex(looks, spot, VNDF_VERTEX_TANGENT + 1),
+                              vndf_render_vertex(looks, spot, VNDF_VERTEX_TANGENT + 2));
+    return vndf_render_unit_vector(vndf_render_sum(t, -vndf_render_dot(t, normal), normal));
+}
+// The other one of the plane.
+VNDF_FN struct vndf_render_vector vndf_render_mesh_bitangent(struct vndf_render_looks looks,
+                                                             struct vndf_render_spot spot,
+                                                             struct vndf_render_vector normal,
+                                                             struct vndf_render_vector tangent) {
+    return vndf_render_scaled(looks.vertices[(VNDF_VERTEX_TANGENT + 3) * looks.sizes.vertices + spot.first],
+                              vndf_render_cross(normal, tangent));
+}
+#endif
+
+#if VNDF_RENDER_NORMAL_MAP
+// A byte has no 0: the two next to it count as such.
+VNDF_FN float vndf_render_signed(float x) {
+    const float s = VNDF_FMA(2.0f, x, -1.0f);
+    return vndf_impl_abs(s) < 0.005f ? 0.0f : s;
+}
+// The normal that a map has in the plane of the mesh's tangents.
+VNDF_FN struct vndf_render_vector vndf_render_mapped(struct vndf_render_looks looks,
+                                                     struct vndf_render_spot spot,
+                                                     struct vndf_render_vector normal) {
+    const struct vndf_render_vector tangent = vndf_render_mesh_tangent(looks, spot, normal),
+                                    bitangent = vndf_render_mesh_bitangent(looks, spot, normal, tangent);
+    const struct vndf_render_colour map = vndf_render_look(looks, spot, VNDF_SLOT_NORMAL, 0);
+    const float scale = vndf_render_dressing(looks, spot, VNDF_DRESSING_NORMAL_SCALE);
+    const float x = scale * vndf_render_signed(map.r), y = scale * vndf_render_signed(map.g),
+                z = VNDF_FMA(2.0f, map.b, -1.0f);
+    const struct vndf_render_vector bent = vndf_render_unit_vector(
+        vndf_render_sum(vndf_render_sum(vndf_render_scaled(x, tangent), y, bitangent), z, normal));
+    const int flat = !vndf_render_has(looks, spot, VNDF_SLOT_NORMAL) || (x == 0.0f && y == 0.0f) ||
+                     vndf_render_dot(tangent, tangent) == 0.0f;
+    return vndf_render_vector_of(flat ? normal.x : bent.x, flat ? normal.y : bent.y,
+                                 flat ? normal.z : bent.z);
+}
+#endif
+
+#if VNDF_RENDER_TANGENT
+// The direction of alpha_x: the mesh's tangent, turned as the material says; `usual` where the mesh has none.
+VNDF_FN struct vndf_render_vector vndf_render_turned_tangent(struct vndf_render_looks looks,
+                                                             struct vndf_render_spot spot,
+                                                             struct vndf_render_vector normal,
+                                                             struct vndf_render_vector usual) {
+    const struct vndf_render_vector t = vndf_render_mesh_tangent(looks, spot, normal),
+                                    b = vndf_render_mesh_bitangent(looks, spot, normal, t);
+    float c = vndf_render_dressing(looks, spot, VNDF_DRESSING_TURN),
+          s = vndf_render_dressing(looks, spot, VNDF_DRESSING_TURN + 1);
+#if VNDF_RENDER_LAYER_TEXTURE
+    const struct vndf_render_colour map = vndf_render_layer_texture(looks, spot, VNDF_SLOT_ANISOTROPY);
+    const int says = vndf_render_has(looks, spot, VNDF_SLOT_ANISOTROPY);
+    const float x = says ? VNDF_FMA(2.0f, map.r, -1.0f) : 1.0f,
+                y = says ? VNDF_FMA(2.0f, map.g, -1.0f) : 0.0f;
+    const float turned = VNDF_FMA(c, x, -s * y);
+    s = VNDF_FMA(s, x, c * y);
+    c = turned;
+#endif
+    const struct vndf_render_vector along =
+        vndf_render_unit_vector(vndf_render_sum(vndf_render_scaled(c, t), s, b));
+    const int there = vndf_render_dot(along, along) > 0.0f;
+    return vndf_render_vector_of(there ? along.x : usual.x, there ? along.y : usual.y,
+                                 there ? along.z : usual.z);
+}
+#endif
+
 VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) vertices,
-                                       VNDF_RENDER_IN(uint) triangles, VNDF_RENDER_IN(float) hit,
-                                       VNDF_RENDER_IN(uint) triangle, const uint count, const uint stride,
-                                       VNDF_RENDER_OUT(float) path, VNDF_RENDER_OUT(float) surface,
-                                       VNDF_RENDER_OUT(uint) material) {
+                                       VNDF_RENDER_IN(uint) triangles, VNDF_RENDER_IN(float) dressings,
+                                       VNDF_RENDER_IN(uint) textures, VNDF_RENDER_IN(uint) texels,
+                                       VNDF_RENDER_IN(float) hit, VNDF_RENDER_IN(uint) triangle,
+                                       const uint count, const uint stride, VNDF_RENDER_OUT(float) path,
+                                       VNDF_RENDER_OUT(float) surface, VNDF_RENDER_OUT(uint) material) {
     const uint i = VNDF_RENDER_ITEM;
     // Items beyond the count get some surface, and no other stage asks for it.
     const uint number = i < count ? triangle[i] : 0;
@@ -46,6 +120,15 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
                third = triangles[2 * sizes.triangles + number];
 #endif
     const float b1 = hit[VNDF_HIT_B1 * stride + i], b2 = hit[VNDF_HIT_B2 * stride + i];
+#if VNDF_RENDER_TANGENT || VNDF_RENDER_NORMAL_MAP
+    const struct vndf_render_looks looks =
+        vndf_render_looks_of(sizes, vertices, triangles, dressings, textures, texels);
+    const struct vndf_render_spot spot = vndf_render_spot_of(looks, number, b1, b2);
+#else
+    (void)dressings;
+    (void)textures;
+    (void)texels;
+#endif
     const struct vndf_render_vector a = vndf_render_corner(sizes, vertices, triangles, number, 0),
                                     b = vndf_render_corner(sizes, vertices, triangles, number, 1),
                                     c = vndf_render_corner(sizes, vertices, triangles, number, 2);
@@ -60,8 +143,13 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
         vndf_render_mix(vndf_render_vector_at(vertices, VNDF_VERTEX_NORMAL, sizes.vertices, first),
                         vndf_render_vector_at(vertices, VNDF_VERTEX_NORMAL, sizes.vertices, second),
                         vndf_render_vector_at(vertices, VNDF_VERTEX_NORMAL, sizes.vertices, third), b1, b2);
+    const struct vndf_render_vector smooth = vndf_render_unit_after(vndf_render_dot(face, face), mixed);
+#if VNDF_RENDER_NORMAL_MAP
     const struct vndf_render_vector turned =
-        vndf_render_scaled(side, vndf_render_unit_after(vndf_render_dot(face, face), mixed));
+        vndf_render_scaled(side, vndf_render_mapped(looks, spot, smooth));
+#else
+    const struct vndf_render_vector turned = vndf_render_scaled(side, smooth);
+#endif
     // Bent until wo is one part in a hundred above its horizon, so that a coarse mesh has no black spots.
     const float lack = vndf_impl_max(0.01f - vndf_render_dot(turned, wo), 0.0f);
     const struct vndf_render_vector normal = vndf_render_unit_vector(vndf_render_sum(turned, lack, wo));
@@ -70,8 +158,14 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
 #endif
     // The tangent runs along the circles about the vertical.
     const int pole = VNDF_FMA(normal.x, normal.x, normal.z * normal.z) < 1e-12f;
-    const struct vndf_render_vector tangent =
+    const struct vndf_render_vector around =
         vndf_render_unit_vector(vndf_render_vector_of(pole ? 1.0f : normal.z, 0.0f, pole ? 0.0f : -normal.x));
+#if VNDF_RENDER_TANGENT
+    const struct vndf_render_vector tangent =
+        vndf_render_turned_tangent(looks, spot, vndf_render_scaled(side, normal), around);
+#else
+    const struct vndf_render_vector tangent = around;
+#endif
     const struct vndf_render_vector wo_local = vndf_render_local(normal, tangent, wo),
                                     geometric_local = vndf_render_local(normal, tangent, geometric);
     // Rays begin beside the surface, by more than the rounding of its place and of the test for hits, which both go with the
@@ -80,6 +174,12 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
     const float size2 = vndf_render_dot(place, place) + vndf_render_dot(ab, ab) + vndf_render_dot(ac, ac);
     const float offset = 1e-6f * VNDF_SQRT(size2);
     const struct vndf_render_vector origin = vndf_render_sum(place, offset, geometric);
+#if VNDF_RENDER_LAMP
+    const struct vndf_render_vector way =
+        vndf_render_sum(place, -1.0f, vndf_render_vector_at(path, VNDF_PATH_X, stride, i));
+    surface[VNDF_SURFACE_SOLID * stride + i] =
+        vndf_render_dot(way, way) / vndf_impl_max(vndf_impl_abs(vndf_render_dot(face, wo)), 1e-20f);
+#endif
     vndf_render_store(origin, path, VNDF_PATH_X, stride, i);
     vndf_render_store(normal, surface, VNDF_SURFACE_NORMAL, stride, i);
     vndf_render_store(tangent, surface, VNDF_SURFACE_TANGENT, stride, i);

@@ -8,6 +8,8 @@
 
 #include "language.h"
 #include "queues.h"
+#include "random.h"
+#include "texture.h"
 
 #define VNDF_STACK (7 * VNDF_TREE_DEPTH + 1)
 // A node's planes come in pairs: a ray that meets one of them first leaves by the sum less it.
@@ -27,6 +29,30 @@ struct vndf_render_hit {
     float t, b1, b2;
     uint triangle;
 };
+
+// What lets some rays pass: how surfaces look, and a number of the ray.
+struct vndf_render_veil {
+#if VNDF_RENDER_ALPHA
+    struct vndf_render_looks looks;
+    uint ray;
+#else
+    int none;
+#endif
+};
+
+// Whether a ray goes on at a triangle that it meets.
+VNDF_FN int vndf_render_passes(struct vndf_render_veil veil, uint triangle, float b1, float b2) {
+#if VNDF_RENDER_ALPHA
+    const uint bits = vndf_render_hash(veil.ray ^ (triangle * 0x9e3779b9u));
+    return vndf_render_lets_pass(veil.looks, triangle, b1, b2, vndf_render_unit(bits >> 8));
+#else
+    (void)veil;
+    (void)triangle;
+    (void)b1;
+    (void)b2;
+    return 0;
+#endif
+}
 
 // Eight numbers by one comparison; a NaN in b gives a.
 VNDF_FN float8 vndf_render_least8(float8 a, float8 b) {
@@ -105,7 +131,7 @@ VNDF_FN float8 vndf_render_boxes(VNDF_RENDER_FROM(float) node, struct vndf_rende
 // Source: Woop, Benthin & Wald, Watertight Ray/Triangle Intersection, 2013. A ray through an edge meets both its triangles,
 //     since the two have the same number for it but for the sign; both ends included, no third test is needed.
 VNDF_FN struct vndf_render_hit vndf_render_leaf(VNDF_RENDER_FROM(float) leaf, struct vndf_render_ray ray,
-                                                struct vndf_render_hit hit) {
+                                                struct vndf_render_hit hit, struct vndf_render_veil veil) {
     const float ox = vndf_render_axis(ray, ray.kx), oy = vndf_render_axis(ray, ray.ky),
                 oz = vndf_render_axis(ray, ray.kz);
     VNDF_RENDER_FROM(float) const at_x = leaf + 8 * ray.kx;
@@ -139,7 +165,8 @@ VNDF_FN struct vndf_render_hit vndf_render_leaf(VNDF_RENDER_FROM(float) leaf, st
         const int i = vndf_render_last_lane(lanes);
         lanes = vndf_render_lanes_below(lanes, i);
         const uint triangle = VNDF_RENDER_BITS(leaf[VNDF_LEAF_TRIANGLE + i]);
-        if (ts[i] < hit.t || (ts[i] == hit.t && triangle < hit.triangle)) {
+        if ((ts[i] < hit.t || (ts[i] == hit.t && triangle < hit.triangle)) &&
+            !vndf_render_passes(veil, triangle, b1[i], b2[i])) {
             hit.t = ts[i];
             hit.b1 = b1[i];
             hit.b2 = b2[i];
@@ -196,26 +223,27 @@ VNDF_FN VNDF_RENDER_FROM(float) vndf_render_leaf_at(VNDF_RENDER_FROM(float) leav
 
 VNDF_FN struct vndf_render_hit vndf_render_no_hit(void) {
     struct vndf_render_hit hit;
-    hit.t = 3.0e38f;
+    hit.t = VNDF_RENDER_ANYWHERE;
     hit.b1 = 0.0f;
     hit.b2 = 0.0f;
     hit.triangle = VNDF_MISS;
     return hit;
 }
 
-// The first hit of a ray, or any at all where `any` is not 0: then the nearest box is no better than another, and mostly the
+// The first hit of a ray before `far`, or any at all where `any` is not 0: then the nearest box is no better than another, and mostly the
 // ray's own surroundings.
 VNDF_FN struct vndf_render_hit vndf_render_trace(VNDF_RENDER_FROM(float) nodes,
                                                  VNDF_RENDER_FROM(float) leaves, struct vndf_render_ray ray,
-                                                 int any) {
+                                                 float far, int any, struct vndf_render_veil veil) {
     struct vndf_render_hit hit = vndf_render_no_hit();
+    hit.t = far;
     struct vndf_render_stack stack;
     stack.size = 0;
     int child = 0;
     for (;;) {
         int next = VNDF_NO_CHILD;
         if (child < 0) {
-            hit = vndf_render_leaf(vndf_render_leaf_at(leaves, child), ray, hit);
+            hit = vndf_render_leaf(vndf_render_leaf_at(leaves, child), ray, hit, veil);
             if (any && hit.triangle != VNDF_MISS) return hit;
         } else {
             VNDF_RENDER_FROM(float) const node = vndf_render_node_at(nodes, child);

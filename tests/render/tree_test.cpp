@@ -2,6 +2,7 @@
 #include <random>
 
 #define VNDF_PACKET 16
+#define VNDF_RENDER_ALPHA 0  // every surface is there for every ray
 #include "kernels/render/packet.h"
 #include "render/tree.h"
 #include "support/catch.h"
@@ -35,7 +36,7 @@ render::Scene soup(unsigned triangles, unsigned seed) {
 vndf_render_hit brute(const render::Tree& tree, const vndf_render_ray& ray) {
     vndf_render_hit hit{3.0e38f, 0, 0, VNDF_MISS};
     for (std::size_t i = 0; i < tree.leaves.size(); i += VNDF_LEAF_SIZE)
-        hit = vndf_render_leaf(&tree.leaves[i], ray, hit);
+        hit = vndf_render_leaf(&tree.leaves[i], ray, hit, {});
     return hit;
 }
 
@@ -60,8 +61,10 @@ TEST_CASE("the tree finds the first hit of every ray, whatever its shape") {
                 d[axis] = i % 5 == axis ? 0.0f : normal(random);  // along a plane of the axes, too
             }
             const vndf_render_ray ray = vndf_render_ray_of(o[0], o[1], o[2], d[0], d[1], d[2]);
-            const vndf_render_hit found = vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0),
-                                  any = vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 1),
+            const vndf_render_hit found = vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray,
+                                                            VNDF_RENDER_ANYWHERE, 0, {}),
+                                  any = vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray,
+                                                          VNDF_RENDER_ANYWHERE, 1, {}),
                                   first = brute(tree, ray);
             hits += first.triangle != VNDF_MISS;
             // The second of two in one place is never the one that counts.
@@ -80,7 +83,7 @@ TEST_CASE("rays in packets find what single ones find, however far apart they ru
     std::normal_distribution<float> normal;
     const render::Tree tree = render::build_tree(soup(2000, 3));
     const auto trace = [&](const vndf_render_ray& ray) {
-        return vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0);
+        return vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, VNDF_RENDER_ANYWHERE, 0, {});
     };
     unsigned hits = 0, wrong = 0, beams = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -91,7 +94,7 @@ TEST_CASE("rays in packets find what single ones find, however far apart they ru
         vndf_render_packet packet;
         for (int k = 0; k < VNDF_PACKET; ++k) {
             for (float& x : d) x += spread * normal(random);
-            vndf_render_add(&packet, k, vndf_render_ray_of(o[0], o[1], o[2], d[0], d[1], d[2]));
+            vndf_render_add(&packet, k, vndf_render_ray_of(o[0], o[1], o[2], d[0], d[1], d[2]), {});
         }
         if (!vndf_render_together(&packet)) continue;
         ++beams;
@@ -122,7 +125,8 @@ TEST_CASE("no ray slips between the triangles of a closed mesh") {
         for (int axis = 0; axis < 3; ++axis)
             d[axis] = a[axis] + part * (b[axis] - a[axis]) - 0.05f * (axis + 1);
         const vndf_render_ray ray = vndf_render_ray_of(0.05f, 0.1f, 0.15f, d[0], d[1], d[2]);
-        missed += vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0).triangle == VNDF_MISS;
+        missed += vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, VNDF_RENDER_ANYWHERE, 0, {})
+                      .triangle == VNDF_MISS;
     }
     CHECK(missed == 0);
 }
@@ -142,7 +146,8 @@ TEST_CASE("a ray through a corner or along an edge meets a triangle, from either
                 const vndf_render_ray ray = vndf_render_ray_of(0.5f * static_cast<float>(i), side,
                                                                0.5f * static_cast<float>(j), 0, -side, 0);
                 missed +=
-                    vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, 0).triangle == VNDF_MISS;
+                    vndf_render_trace(tree.nodes.data(), tree.leaves.data(), ray, VNDF_RENDER_ANYWHERE, 0, {})
+                        .triangle == VNDF_MISS;
             }
     CHECK(missed == 0);
 }
