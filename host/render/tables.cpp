@@ -61,7 +61,7 @@ class Shine {
             for (int j = 0; i + j < steps; ++j, ++points) {
                 const auto spot = vndf_render_spot_of(looks_, triangle, (i + 1 / 3.0f) / steps,
                                                       (static_cast<float>(j) + 1 / 3.0f) / steps);
-                const vndf_render_vector look = vndf_render_emission_look(looks_, spot);
+                const vndf_render_vector look = vndf_render_emission_look(looks_, spot, 1.0f);
                 sum += luminance({own[0] * look.x, own[1] * look.y, own[2] * look.z});
             }
         return sum / points;
@@ -193,8 +193,8 @@ Lamps lamps_of(const Scene& scene) {
     lamps.numbers.insert(lamps.numbers.end(), numbers.begin(), numbers.end());
     lamps.densities.assign(scene.triangles.size(), 0.0f);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        lamps.planes.push_back(static_cast<float>(powers[i] / total / areas[i]));
-        lamps.densities[numbers[i]] = lamps.planes.back();
+        lamps.planes.push_back(static_cast<float>(2 * powers[i] / total));
+        lamps.densities[numbers[i]] = static_cast<float>(powers[i] / total / areas[i]);
     }
     return lamps;
 }

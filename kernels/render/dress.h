@@ -12,7 +12,7 @@ VNDF_FN struct vndf_render_vector vndf_render_base(struct vndf_render_looks look
                                                    struct vndf_render_spot spot) {
     struct vndf_render_vector base = vndf_render_vector_of(1.0f, 1.0f, 1.0f);
 #if VNDF_RENDER_TEXTURE
-    const struct vndf_render_colour texture = vndf_render_base_texture(looks, spot);
+    const struct vndf_render_colour texture = vndf_render_base_texture(looks, spot, 1.0f);
     base = vndf_render_vector_of(texture.r, texture.g, texture.b);
 #endif
 #if VNDF_RENDER_VERTEX_COLOUR
@@ -53,42 +53,53 @@ VNDF_RENDER_KERNEL vndf_render_dress(const struct vndf_render_sizes sizes, VNDF_
         vndf_render_looks_of(sizes, vertices, triangles, dressings, textures, texels);
     const struct vndf_render_spot spot = vndf_render_spot_of(
         looks, i < count ? triangle[i] : 0, hit[VNDF_HIT_B1 * stride + i], hit[VNDF_HIT_B2 * stride + i]);
+    // What the next texture waits for (texture.h).
+    float known = 1.0f;
 #if VNDF_RENDER_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
-    vndf_render_store(vndf_render_base(looks, spot), look, VNDF_LOOK_BASE, stride, i);
+    const struct vndf_render_vector base = vndf_render_base(looks, spot);
+    vndf_render_store(base, look, VNDF_LOOK_BASE, stride, i);
+    known = base.z;
+#endif
+#if VNDF_RENDER_EMISSION && (VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR)
+    const struct vndf_render_vector emission = vndf_render_emission_look(looks, spot, known);
+    vndf_render_store(emission, look, VNDF_LOOK_EMISSION, stride, i);
+    known = emission.z;
 #endif
 #if VNDF_RENDER_ROUGHNESS_TEXTURE || VNDF_RENDER_LAYER_TEXTURE
     float roughness = 1.0f, stretch = 1.0f;
 #if VNDF_RENDER_ROUGHNESS_TEXTURE
-    const struct vndf_render_colour rough = vndf_render_roughness_texture(looks, spot);
+    const struct vndf_render_colour rough = vndf_render_roughness_texture(looks, spot, known);
     roughness = rough.g;
     look[VNDF_LOOK_METAL * stride + i] = rough.b;
+    known = rough.b;
 #endif
 #if VNDF_RENDER_LAYER_TEXTURE
-    stretch = vndf_render_layer_texture(looks, spot, VNDF_SLOT_ANISOTROPY).b;
+    stretch = vndf_render_layer_texture(looks, spot, VNDF_SLOT_ANISOTROPY, known).b;
+    known = stretch;
 #endif
     vndf_render_rough(looks, spot, materials, roughness, stretch, stride, i, look);
 #else
     (void)materials;
 #endif
-#if VNDF_RENDER_EMISSION && (VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR)
-    vndf_render_store(vndf_render_emission_look(looks, spot), look, VNDF_LOOK_EMISSION, stride, i);
-#endif
 #if VNDF_RENDER_LAYER_TEXTURE
-    look[VNDF_LOOK_TRANSMISSION * stride + i] =
-        vndf_render_layer_texture(looks, spot, VNDF_SLOT_TRANSMISSION).r;
-    look[VNDF_LOOK_COAT * stride + i] = vndf_render_layer_texture(looks, spot, VNDF_SLOT_COAT).r;
-    const float coat_roughness = vndf_render_layer_texture(looks, spot, VNDF_SLOT_COAT_ROUGHNESS).g *
-                                 vndf_render_dressing(looks, spot, VNDF_DRESSING_COAT_ROUGHNESS);
+    const float transmission = vndf_render_layer_texture(looks, spot, VNDF_SLOT_TRANSMISSION, known).r;
+    look[VNDF_LOOK_TRANSMISSION * stride + i] = transmission;
+    const float coat = vndf_render_layer_texture(looks, spot, VNDF_SLOT_COAT, transmission).r;
+    look[VNDF_LOOK_COAT * stride + i] = coat;
+    const float coat_rough = vndf_render_layer_texture(looks, spot, VNDF_SLOT_COAT_ROUGHNESS, coat).g;
+    const float coat_roughness = coat_rough * vndf_render_dressing(looks, spot, VNDF_DRESSING_COAT_ROUGHNESS);
     look[VNDF_LOOK_COAT_ALPHA * stride + i] =
         vndf_render_has(looks, spot, VNDF_SLOT_COAT_ROUGHNESS)
             ? coat_roughness * coat_roughness
             : materials[VNDF_MATERIAL_COAT_ALPHA * sizes.materials + spot.material];
-    look[VNDF_LOOK_SPECULAR * stride + i] = vndf_render_layer_texture(looks, spot, VNDF_SLOT_SPECULAR).a;
-    const struct vndf_render_colour specular =
-        vndf_render_layer_texture(looks, spot, VNDF_SLOT_SPECULAR_COLOUR);
-    vndf_render_store(vndf_render_vector_of(specular.r, specular.g, specular.b), look,
-                      VNDF_LOOK_SPECULAR_COLOUR, stride, i);
+    const float specular = vndf_render_layer_texture(looks, spot, VNDF_SLOT_SPECULAR, coat_rough).a;
+    look[VNDF_LOOK_SPECULAR * stride + i] = specular;
+    const struct vndf_render_colour tinted =
+        vndf_render_layer_texture(looks, spot, VNDF_SLOT_SPECULAR_COLOUR, specular);
+    vndf_render_store(vndf_render_vector_of(tinted.r, tinted.g, tinted.b), look, VNDF_LOOK_SPECULAR_COLOUR,
+                      stride, i);
 #endif
+    (void)known;
 }
 
 #endif

@@ -99,12 +99,14 @@ VNDF_FN struct vndf_render_vector vndf_render_shining(struct vndf_render_looks l
                                                       struct vndf_render_spot spot,
                                                       VNDF_RENDER_FROM(float) materials) {
     const uint count = looks.sizes.materials;
+    // As vndf_render_rgb_at.
+    const float one = looks.sizes.one;
     struct vndf_render_vector own =
         vndf_render_vector_of(materials[VNDF_MATERIAL_EMISSION * count + spot.material],
-                              materials[(VNDF_MATERIAL_EMISSION + 1) * count + spot.material],
-                              materials[(VNDF_MATERIAL_EMISSION + 2) * count + spot.material]);
+                              one * materials[(VNDF_MATERIAL_EMISSION + 1) * count + spot.material],
+                              one * (one * materials[(VNDF_MATERIAL_EMISSION + 2) * count + spot.material]));
 #if VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
-    const struct vndf_render_vector look = vndf_render_emission_look(looks, spot);
+    const struct vndf_render_vector look = vndf_render_emission_look(looks, spot, 1.0f);
     own = vndf_render_vector_of(own.x * look.x, own.y * look.y, own.z * look.z);
 #endif
     return own;
@@ -137,10 +139,10 @@ VNDF_FN struct vndf_render_lit vndf_render_to_lamp(struct vndf_render_looks look
     struct vndf_render_lit lit;
     lit.distance = VNDF_SQRT(square);
     lit.direction = vndf_render_unit_vector(way);
-    const float cosine =
-        vndf_impl_abs(vndf_render_dot(vndf_render_unit_vector(vndf_render_cross(ab, ac)), lit.direction));
-    lit.pdf = vndf_impl_min(lamps[VNDF_LAMP_DENSITY * count + lamp] * square / vndf_impl_max(cosine, 1e-20f),
-                            1e30f);
+    // Times twice the area.
+    const float cosine = vndf_impl_abs(vndf_render_dot(vndf_render_cross(ab, ac), lit.direction));
+    lit.pdf = vndf_impl_min(
+        lamps[VNDF_LAMP_TWICE_CHANCE * count + lamp] * square / vndf_impl_max(cosine, 1e-30f), 1e30f);
     lit.radiance = vndf_render_shining(looks, spot, materials);
     return lit;
 }

@@ -162,10 +162,10 @@
 #define VNDF_WRAP_CLAMP 1u
 #define VNDF_WRAP_MIRROR 2u
 
-// Triangles that shine, to pick one by Walker's alias method: what it is kept with, and its chance per unit of area; and in whole
-// numbers what it stands for else, and the triangle.
+// Triangles that shine, to pick one by Walker's alias method: what it is kept with, and twice its chance; and in whole numbers
+// what it stands for else, and the triangle.
 #define VNDF_LAMP_KEEP 0
-#define VNDF_LAMP_DENSITY 1
+#define VNDF_LAMP_TWICE_CHANCE 1
 #define VNDF_LAMP_PLANES 2
 #define VNDF_LAMP_OTHER 0
 #define VNDF_LAMP_TRIANGLE 1

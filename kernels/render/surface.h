@@ -66,10 +66,11 @@ VNDF_FN struct vndf_render_vector vndf_render_mapped(struct vndf_render_looks lo
                                                      struct vndf_render_vector normal) {
     const struct vndf_render_vector tangent = vndf_render_mesh_tangent(looks, spot, normal),
                                     bitangent = vndf_render_mesh_bitangent(looks, spot, normal, tangent);
-    const struct vndf_render_colour map = vndf_render_look(looks, spot, VNDF_SLOT_NORMAL, 0);
+    const struct vndf_render_colour map = vndf_render_look(looks, spot, VNDF_SLOT_NORMAL, 0, 1.0f);
     const float scale = vndf_render_dressing(looks, spot, VNDF_DRESSING_NORMAL_SCALE);
-    const float x = scale * vndf_render_signed(map.r), y = scale * vndf_render_signed(map.g),
-                z = VNDF_FMA(2.0f, map.b, -1.0f);
+    const float x = scale * vndf_render_signed(map.r);
+    // Dependent on x for the compiler alone, which would pack the two.
+    const float y = scale * vndf_render_signed(x > -3e38f ? map.g : 0.0f), z = VNDF_FMA(2.0f, map.b, -1.0f);
     const struct vndf_render_vector bent = vndf_render_unit_vector(
         vndf_render_sum(vndf_render_sum(vndf_render_scaled(x, tangent), y, bitangent), z, normal));
     const int flat = !vndf_render_has(looks, spot, VNDF_SLOT_NORMAL) || (x == 0.0f && y == 0.0f) ||
@@ -90,7 +91,8 @@ VNDF_FN struct vndf_render_vector vndf_render_turned_tangent(struct vndf_render_
     float c = vndf_render_dressing(looks, spot, VNDF_DRESSING_TURN),
           s = vndf_render_dressing(looks, spot, VNDF_DRESSING_TURN + 1);
 #if VNDF_RENDER_LAYER_TEXTURE
-    const struct vndf_render_colour map = vndf_render_layer_texture(looks, spot, VNDF_SLOT_ANISOTROPY);
+    const struct vndf_render_colour map =
+        vndf_render_layer_texture(looks, spot, VNDF_SLOT_ANISOTROPY, vndf_render_dot(t, t));
     const int says = vndf_render_has(looks, spot, VNDF_SLOT_ANISOTROPY);
     const float x = says ? VNDF_FMA(2.0f, map.r, -1.0f) : 1.0f,
                 y = says ? VNDF_FMA(2.0f, map.g, -1.0f) : 0.0f;

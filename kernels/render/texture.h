@@ -67,7 +67,7 @@ VNDF_FN float vndf_render_below(float x) {
     const float whole = (float)(int)x;
     return whole > x ? whole - 1.0f : whole;
 }
-// A coordinate in a texture's width, from 0 to 1. none: 0.0f, a number that the compiler does not know.
+// A coordinate in a texture's width, from 0 to 1.
 VNDF_FN float vndf_render_wrapped(float u, uint wrap) {
     const float some = vndf_impl_max(vndf_impl_min(u, 1e6f), -1e6f);
     const float mirrored = 2.0f * (0.5f * some - vndf_render_below(0.5f * some));
@@ -82,25 +82,32 @@ struct vndf_render_pair {
     float share;
 };
 VNDF_FN struct vndf_render_pair vndf_render_pair_of(float u, uint wrap, int nearest, int size) {
-    const float place = vndf_render_wrapped(u, wrap) * (float)size - (nearest ? 0.0f : 0.5f);
+    const int last = size - 1, around = wrap == VNDF_WRAP_REPEAT;
+    const float place =
+        vndf_impl_min(vndf_render_wrapped(u, wrap) * (float)size - (nearest ? 0.0f : 0.5f), (float)last);
     const float low = vndf_render_below(place);
-    const int first = (int)low, last = size - 1, next = first + 1;
-    const int around = wrap == VNDF_WRAP_REPEAT;
+    const int first = (int)low;
     struct vndf_render_pair pair;
-    pair.a = first < 0 ? (around ? last : 0) : (first > last ? last : first);
-    pair.b = next > last ? (around ? 0 : last) : next;
+    pair.a = first < 0 ? (around ? last : 0) : first;
+    pair.b = first >= last ? (around ? 0 : last) : first + 1;
     pair.share = nearest ? 0.0f : place - low;
     return pair;
 }
 
-VNDF_FN struct vndf_render_colour vndf_render_texel(uint texel, int srgb) {
-    struct vndf_render_colour c;
-    const uint r = texel & 255u, g = (texel >> 8) & 255u, b = (texel >> 16) & 255u;
+// Each channel waits for the one before, and a texel for the last of another, for the compiler alone, which would pack them, and
+// PoCL then not vectorise.
+VNDF_FN struct vndf_render_colour vndf_render_texel(VNDF_RENDER_FROM(uint) texels, uint number, float before,
+                                                    int srgb) {
     const float scale = 1.0f / 255.0f;
+    const uint texel = texels[before >= 0.0f ? number : 0];
+    struct vndf_render_colour c;
+    const uint r = texel & 255u;
     c.r = srgb ? vndf_render_srgb[r] : scale * (float)(int)r;
+    const uint g = (c.r >= 0.0f ? texel : 0u) >> 8 & 255u;
     c.g = srgb ? vndf_render_srgb[g] : scale * (float)(int)g;
+    const uint b = (c.g >= 0.0f ? texel : 0u) >> 16 & 255u;
     c.b = srgb ? vndf_render_srgb[b] : scale * (float)(int)b;
-    c.a = scale * (float)(int)(texel >> 24);
+    c.a = scale * (float)(int)((c.b >= 0.0f ? texel : 0u) >> 24);
     return c;
 }
 VNDF_FN float vndf_render_between(float a, float b, float share) {
@@ -121,11 +128,13 @@ VNDF_FN int vndf_render_has(struct vndf_render_looks looks, struct vndf_render_s
     return vndf_render_dressing(looks, spot, VNDF_DRESSING_SLOT(slot)) >= 0.0f;
 }
 
-// What a texture of the material says; white where there is none. srgb: its colours are encoded.
+// What a texture of the material says; white where there is none. srgb: its colours are encoded. before: what of another has to
+// be known first, >= 0, as above.
 VNDF_FN struct vndf_render_colour vndf_render_look(struct vndf_render_looks looks,
-                                                   struct vndf_render_spot spot, uint slot, int srgb) {
+                                                   struct vndf_render_spot spot, uint slot, int srgb,
+                                                   float before) {
     const uint use = VNDF_DRESSING_SLOT(slot);
-    const float number = vndf_render_dressing(looks, spot, use);
+    const float own = vndf_render_dressing(looks, spot, use), number = before >= 0.0f ? own : -1.0f;
     const uint set = VNDF_VERTEX_UV + 2 * (uint)(int)vndf_render_dressing(looks, spot, use + 1);
     const float u = vndf_render_vertex(looks, spot, set), v = vndf_render_vertex(looks, spot, set + 1);
     const float x = VNDF_FMA(
@@ -140,15 +149,23 @@ VNDF_FN struct vndf_render_colour vndf_render_look(struct vndf_render_looks look
     const int width = (int)looks.textures[VNDF_TEXTURE_WIDTH * count + texture],
               height = (int)looks.textures[VNDF_TEXTURE_HEIGHT * count + texture];
     const int nearest = (int)((mode >> 4) & 1u);
-    const struct vndf_render_pair column = vndf_render_pair_of(x, mode & 3u, nearest, width),
-                                  row = vndf_render_pair_of(y, (mode >> 2) & 3u, nearest, height);
+    const struct vndf_render_pair column = vndf_render_pair_of(x, mode & 3u, nearest, width);
+    // As above.
+    const int known = column.share >= 0.0f && column.b >= 0;
+    const struct vndf_render_pair row =
+        vndf_render_pair_of(known ? y : 0.0f, (mode >> 2) & 3u, nearest, known ? height : 0);
     const uint upper = offset + (uint)(row.a * width), lower = offset + (uint)(row.b * width);
-    struct vndf_render_colour c = vndf_render_blended(
-        vndf_render_blended(vndf_render_texel(looks.texels[upper + (uint)column.a], srgb),
-                            vndf_render_texel(looks.texels[upper + (uint)column.b], srgb), column.share),
-        vndf_render_blended(vndf_render_texel(looks.texels[lower + (uint)column.a], srgb),
-                            vndf_render_texel(looks.texels[lower + (uint)column.b], srgb), column.share),
-        row.share);
+    const struct vndf_render_colour first =
+        vndf_render_texel(looks.texels, upper + (uint)column.a, row.share, srgb);
+    const struct vndf_render_colour second =
+        vndf_render_texel(looks.texels, upper + (uint)column.b, first.a, srgb);
+    const struct vndf_render_colour third =
+        vndf_render_texel(looks.texels, lower + (uint)column.a, second.a, srgb);
+    const struct vndf_render_colour fourth =
+        vndf_render_texel(looks.texels, lower + (uint)column.b, third.a, srgb);
+    struct vndf_render_colour c =
+        vndf_render_blended(vndf_render_blended(first, second, column.share),
+                            vndf_render_blended(third, fourth, column.share), row.share);
     const int there = number >= 0.0f;
     c.r = there ? c.r : 1.0f;
     c.g = there ? c.g : 1.0f;
@@ -160,26 +177,27 @@ VNDF_FN struct vndf_render_colour vndf_render_look(struct vndf_render_looks look
 // The same by its use, so that the effects are told apart.
 #if VNDF_RENDER_TEXTURE
 VNDF_FN struct vndf_render_colour vndf_render_base_texture(struct vndf_render_looks looks,
-                                                           struct vndf_render_spot spot) {
-    return vndf_render_look(looks, spot, VNDF_SLOT_BASE_COLOUR, 1);
+                                                           struct vndf_render_spot spot, float before) {
+    return vndf_render_look(looks, spot, VNDF_SLOT_BASE_COLOUR, 1, before);
 }
 #endif
 #if VNDF_RENDER_ROUGHNESS_TEXTURE
 VNDF_FN struct vndf_render_colour vndf_render_roughness_texture(struct vndf_render_looks looks,
-                                                                struct vndf_render_spot spot) {
-    return vndf_render_look(looks, spot, VNDF_SLOT_METALLIC_ROUGHNESS, 0);
+                                                                struct vndf_render_spot spot, float before) {
+    return vndf_render_look(looks, spot, VNDF_SLOT_METALLIC_ROUGHNESS, 0, before);
 }
 #endif
 #if VNDF_RENDER_LAYER_TEXTURE
 VNDF_FN struct vndf_render_colour vndf_render_layer_texture(struct vndf_render_looks looks,
-                                                            struct vndf_render_spot spot, uint slot) {
-    return vndf_render_look(looks, spot, slot, slot == VNDF_SLOT_SPECULAR_COLOUR);
+                                                            struct vndf_render_spot spot, uint slot,
+                                                            float before) {
+    return vndf_render_look(looks, spot, slot, slot == VNDF_SLOT_SPECULAR_COLOUR, before);
 }
 #endif
 #if VNDF_RENDER_EMISSION_TEXTURE
 VNDF_FN struct vndf_render_colour vndf_render_emission_texture(struct vndf_render_looks looks,
-                                                               struct vndf_render_spot spot) {
-    return vndf_render_look(looks, spot, VNDF_SLOT_EMISSIVE, 1);
+                                                               struct vndf_render_spot spot, float before) {
+    return vndf_render_look(looks, spot, VNDF_SLOT_EMISSIVE, 1, before);
 }
 #endif
 #if VNDF_RENDER_VERTEX_COLOUR
@@ -197,11 +215,13 @@ VNDF_FN struct vndf_render_colour vndf_render_vertex_colour(struct vndf_render_l
 #if VNDF_RENDER_EMISSION_TEXTURE || VNDF_RENDER_VERTEX_COLOUR
 // A factor on what a surface shines with. Where it does nothing else (KHR_materials_unlit) vertices colour that.
 VNDF_FN struct vndf_render_vector vndf_render_emission_look(struct vndf_render_looks looks,
-                                                            struct vndf_render_spot spot) {
+                                                            struct vndf_render_spot spot, float before) {
     struct vndf_render_vector look = vndf_render_vector_of(1.0f, 1.0f, 1.0f);
 #if VNDF_RENDER_EMISSION_TEXTURE
-    const struct vndf_render_colour texture = vndf_render_emission_texture(looks, spot);
+    const struct vndf_render_colour texture = vndf_render_emission_texture(looks, spot, before);
     look = vndf_render_vector_of(texture.r, texture.g, texture.b);
+#else
+    (void)before;
 #endif
 #if VNDF_RENDER_VERTEX_COLOUR
     const struct vndf_render_colour painted = vndf_render_vertex_colour(looks, spot);
@@ -222,7 +242,7 @@ VNDF_FN int vndf_render_lets_pass(struct vndf_render_looks looks, uint triangle,
     if (cutoff == VNDF_ALPHA_OPAQUE) return 0;
     float alpha = vndf_render_dressing(looks, spot, VNDF_DRESSING_OPACITY);
 #if VNDF_RENDER_TEXTURE
-    alpha *= vndf_render_base_texture(looks, spot).a;
+    alpha *= vndf_render_base_texture(looks, spot, 1.0f).a;
 #endif
 #if VNDF_RENDER_VERTEX_COLOUR
     alpha *= vndf_render_vertex_colour(looks, spot).a;
