@@ -89,7 +89,7 @@ std::uint32_t side_for(const LatLong& image) {
 class Resampling {
   public:
     Resampling(const LatLong& image, std::uint32_t side, float rotation_degrees)
-        : image_(image), from_(image), side_(side) {
+        : image_(image), from_(image) {
         const double pixels = std::sqrt(static_cast<double>(image.width) * image.height) / side;
         points_ = std::clamp(static_cast<int>(std::ceil(4 * pixels)), 8, 32);
         steps_ = points_ * static_cast<int>(side);
@@ -125,7 +125,6 @@ class Resampling {
 
     const LatLong& image_;
     Interpolation from_;
-    std::uint32_t side_;
     int points_, steps_;
     double start_;
     std::vector<double> rows_;  // at k / (steps / 2) of the way from the centre to the horizon

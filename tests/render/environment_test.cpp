@@ -666,7 +666,29 @@ TEST_CASE("real environments give what is said of each") {
         read(std::string("env/odd/") + odd, warnings);
         CHECK(warnings.size() == 1);  // not twice as wide as high
     }
+    // Dark lines begin at +z, towards +x and +y; and at +x, towards +z and +y.
     std::vector<std::string> warnings;
+    const Environment axes = read("env/OrientationLatLong.exr", warnings);
+    CHECK(warnings.empty());
+    const auto line = [&](std::array<double, 3> from, std::array<double, 3> to) {
+        double sum = 0;
+        for (int degrees = 2; degrees < 18; ++degrees) {
+            const double c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+            std::array<double, 3> d;
+            for (int i = 0; i < 3; ++i) d[i] = c * from[i] + s * to[i];
+            sum += radiance(axes, d) / 16;
+        }
+        return sum;
+    };
+    for (const auto& [from, beside] :
+         {std::pair{std::array{0.0, 0.0, 1.0}, std::array{1.0, 0.0, 0.0}}, {{1, 0, 0}, {0, 0, 1}}}) {
+        const double dark = std::max(line(from, beside), line(from, {0, 1, 0})),
+                     light = std::min(line(from, {-beside[0], 0, -beside[2]}), line(from, {0, -1, 0}));
+        CAPTURE(dark, light);
+        CHECK(dark < 0.45);
+        CHECK(light > 0.65);
+    }
+
     read("broken/env-nan_inf.exr", warnings);
     REQUIRE(warnings.size() == 2);
     CHECK(has(warnings[0], "18 values"));
