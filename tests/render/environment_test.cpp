@@ -543,11 +543,22 @@ TEST_CASE("cells are drawn exactly as their density says, and all that shine are
         const Environment e = render::environment_of(one);
         const std::size_t n = e.pdf.size();
         std::vector<double> chance(n);
+        const auto drawn = [&](std::size_t first, float c) {
+            const float b = (static_cast<float>(first) + 0.5f) / static_cast<float>(n);
+            const vndf_render_place p = vndf_render_octahedral_place(
+                vndf_render_env_sample(e.radiance.data(), e.pdf.data(), e.keep.data(), e.other.data(), e.side,
+                                       b, c, 0.5f, 0.5f)
+                    .direction);
+            const auto side = static_cast<float>(e.side);
+            return static_cast<std::size_t>(p.y * side) * e.side + static_cast<std::size_t>(p.x * side);
+        };
         for (std::size_t i = 0; i < n; ++i) {
             // Of 2^24 numbers, those below keep.
             REQUIRE(
                 (e.keep[i] >= 0 && e.keep[i] <= 1 && e.keep[i] * 0x1p24f == std::floor(e.keep[i] * 0x1p24f)));
             REQUIRE(e.other[i] < n);
+            if (e.keep[i] > 0) REQUIRE(drawn(i, e.keep[i] - 0x1p-24f) == i);
+            if (e.keep[i] < 1) REQUIRE(drawn(i, e.keep[i]) == e.other[i]);
             chance[i] += e.keep[i];
             chance[e.other[i]] += 1 - double{e.keep[i]};
         }
