@@ -92,14 +92,15 @@ std::string size_line(unsigned width, unsigned height) {
 }
 
 using Rgbe = std::array<unsigned char, 4>;
-// Runs of few values, none of which is mistaken for a run or a code.
+// Single ones, then runs among them, none of which is mistaken for a run or a code.
 std::vector<Rgbe> rgbe_pixels(unsigned count, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<Rgbe> pixels;
     while (pixels.size() < count) {
         Rgbe pixel;
         for (unsigned char& byte : pixel) byte = static_cast<unsigned char>(3 + random() % 200);
-        pixels.insert(pixels.end(), 1 + (random() % 3 == 0 ? random() % 700 : 0), pixel);
+        pixels.insert(pixels.end(), 1 + (pixels.size() > count / 3 && random() % 3 == 0 ? random() % 700 : 0),
+                      pixel);
     }
     pixels.resize(count);
     pixels[count / 2][3] = 0;  // black
@@ -382,6 +383,11 @@ TEST_CASE("OpenEXR images that are no environment are refused in a line that say
     refused({.type = Imf::UINT}, "channel R is of integers");
     refused({.sampling = 2}, "channel R has not every pixel");
     refused({.change = [](Imf::Header& header) { Imf::addEnvmap(header, Imf::ENVMAP_CUBE); }}, "cube");
+    std::string typed =
+        exr(folder, 12, 6, {.change = [](Imf::Header& header) { header.setType("scanlineimage"); }});
+    CHECK(exr_refusal(typed) == "");
+    CHECK(has(exr_refusal(typed.replace(typed.find("scanlineimage"), 13, "deepscanlines")),
+              "type is 'deepscanlines'"));
     std::vector<std::string> many{"R", "G", "B"};
     for (int i = 0; i < 80; ++i) many.push_back(fmt::format("more{}", i));
     refused({.channels = many}, "64 channels");
