@@ -2,7 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <string>
 #include <vector>
+
+#include "render/lat_long.h"
+#include "render/material.h"
 
 namespace vndf::render {
 
@@ -16,5 +21,18 @@ struct Environment {
     std::vector<float> keep;
     std::vector<std::uint32_t> other;
 };
+
+// The file, .hdr or .exr by what is in it, turned about +y by so many degrees, counterclockwise seen from above. What is no
+// finite number, or is below 0, becomes 0, and is counted in a warning: one line each. Throws InputError with one line
+// that names the file; DeviceError where it is an .exr and this build has no OpenEXR.
+Environment read_environment(const std::filesystem::path& file, std::vector<std::string>& warnings,
+                             float rotation_degrees = 0);
+
+// Of finite numbers that are not below 0. The mean over each cell, to 1e-3 of the whole's; in as many cells as there are pixels to
+// two, 32 x 32 to 1024 x 1024.
+Environment environment_of(const LatLong& image, float rotation_degrees = 0);
+
+// The mean over all directions.
+Vec mean_radiance(const Environment& environment);
 
 }  // namespace vndf::render
