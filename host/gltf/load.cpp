@@ -13,6 +13,8 @@
 #include "gltf/materials.h"
 #include "gltf/meshes.h"
 #include "gltf/nodes.h"
+#include "gltf/placing.h"
+#include "gltf/surfaces.h"
 
 namespace vndf::gltf {
 namespace {

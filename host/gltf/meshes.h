@@ -1,14 +1,10 @@
-// Meshes of the file, and their triangles in the world.
+// Meshes of the file.
 #pragma once
 
 #include <vector>
 
 #include "gltf/accessors.h"
 #include "gltf/materials.h"
-#include "gltf/tangents.h"
-#include "gltf/vectors.h"
-#include "gltf/warnings.h"
-#include "render/scene.h"
 
 namespace vndf::gltf {
 
@@ -33,21 +29,5 @@ struct Primitive {
 // `quantized`: KHR_mesh_quantization is used, which allows more formats.
 std::vector<std::vector<Primitive>> read_meshes(const Item& root, const Accessors& accessors,
                                                 const Materials& materials, bool quantized);
-
-// A primitive in its own coordinates, with the normals and tangents that its material asks for. A normal of no length is that of
-// whatever triangle it is met in.
-struct Surface {
-    std::vector<render::Vertex> vertices;
-    std::vector<Corners> triangles;
-};
-Surface surface_of(const Primitive& primitive, const render::Dressing& dressing, Warnings& warnings);
-
-// Triangles that are not in the scene.
-struct Dropped {
-    std::size_t without_area = 0, out_of_range = 0;
-};
-// Adds a surface where a node has it. One that is mirrored has its corners run the other way, and its bitangents.
-void place(const Surface& surface, const Affine& to_world, std::uint32_t material, render::Scene& scene,
-           Dropped& dropped);
 
 }  // namespace vndf::gltf
