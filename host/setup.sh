@@ -14,7 +14,7 @@ packages="
     g++ cmake ninja-build pkgconf
     pocl-opencl-icd ocl-icd-libopencl1 ocl-icd-opencl-dev opencl-c-headers opencl-clhpp-headers
     librandom123-dev libboost-dev libboost-wave-dev libboost-thread-dev libcli11-dev nlohmann-json3-dev libfmt-dev
-    catch2 libembree-dev libopenexr-dev libstb-dev libbenchmark-dev python3-matplotlib python3-jsonschema
+    catch2 libembree-dev libopenexr-dev libstb-dev libpng-dev libjpeg62-turbo-dev libbenchmark-dev python3-matplotlib python3-jsonschema
 "
 
 say() { echo "setup: $*" >&2; }

@@ -11,7 +11,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # From the ground up: a folder, or a file of its own rank, includes itself and those before it.
 LAYERS = ["kernels/vndf/config.h", "kernels/vndf/impl", "kernels/vndf", "kernels", "kernels/batch", "kernels/render", "host/reference", "host", "host/runtime",
-          "host/conformance/inputs", "host/conformance/judge", "host/conformance/report", "host/conformance/runs", "host/emit", "host/energy", "host/python", "host/render",
+          "host/conformance/inputs", "host/conformance/judge", "host/conformance/report", "host/conformance/runs", "host/emit", "host/energy", "host/python", "host/render", "host/gltf",
           "bench/effects", "bench/lean", "bench/published", "bench", "bench/peers", "host/cli", "host/examples"]
 # The reference shares nothing with the kernels.
 APART = [("host/reference", "kernels")]

@@ -27,6 +27,7 @@ struct GltfMaterial {
     Alpha alpha = Alpha::opaque;
     float opacity = 1, alpha_cutoff = 0.5f;
     bool unlit = false, double_sided = false;
+    bool thin_walled = false;  // what transmits has no inside: KHR_materials_transmission without a thickness
 };
 
 // alpha is the square of a roughness. What is not exact: a specular factor and colour count by the reflectance at normal incidence
