@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/render_scene.h"
 #include "cli/streams.h"
 #include "error.h"
 #include "render/effects.h"
@@ -22,8 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Render {
-    std::string output = "render.png", size = "960x340", math = "strict", device, orbs = "roughness",
-                sky = "day", effects = "auto";
+    std::string output = "render.png", size = "960x340", math = "strict", device, effects = "auto";
+    SceneOptions scene;
     render::Choices choices;
     CLI::Option* sampler = nullptr;
     bool explain = false;
@@ -114,13 +115,6 @@ render::Choices choices_of(const Render& r) {
     return choices;
 }
 
-render::Scene scene_of(const Render& r) {
-    render::Scene scene = render::orbs(r.orbs);
-    if (r.sky == "white") scene.sky = render::constant_sky(1);
-    if (r.sky == "sunlit") scene.sky.zenith = scene.sky.horizon = scene.sky.ground = {1, 1, 1};
-    return scene;
-}
-
 void run(const Render& r, Common& common) {
     const Clock::time_point start = Clock::now();
     render::Settings settings;
@@ -129,7 +123,11 @@ void run(const Render& r, Common& common) {
     settings.seed = common.seed;
     settings.random = r.choices.random == "philox" ? render::Random::philox : render::Random::sobol;
     render::require_image_name(r.output);
-    const render::Scene scene = scene_of(r);
+    const ShownScene shown = shown_scene(r.scene);
+    const render::Scene& scene = shown.scene;
+    if (!common.quiet)
+        for (const auto& [warning, count] : shown.warnings)
+            remark("clvndf: warning: {}{}\n", warning, count > 1 ? fmt::format(" ({} times)", count) : "");
     const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
     const render::Switches switches = render::switches(scene, effects, choices_of(r));
     const runtime::Device device = [&] {
@@ -174,7 +172,7 @@ void run(const Render& r, Common& common) {
 }  // namespace
 
 void add_render(CLI::App& app, Common& common) {
-    CLI::App* command = app.add_subcommand("render", "path-trace five orbs with the samplers, to an image");
+    CLI::App* command = app.add_subcommand("render", "path-trace a scene with the samplers, to an image");
     const auto r = std::make_shared<Render>();
     command->add_option("-o,--output", r->output, "image to write: .exr or .png")->capture_default_str();
     command->add_option("--size", r->size, "width and height in pixels, WxH")->capture_default_str();
@@ -215,14 +213,26 @@ void add_render(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_flag("--explain", r->explain,
                       "print which effects the scene calls for and what each costs here");
-    command->add_option("--orbs", r->orbs, "what the orbs are of")
+    CLI::Option* const file = command->add_option("SCENE", r->scene.file, "a scene: .gltf or .glb");
+    command->add_option("--orbs", r->scene.orbs, "without a file: what five orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))
-        ->capture_default_str();
-    choice(
-        "--sky", r->sky,
-        "day: blue, with a sun; to compare with others, white: as bright everywhere, and sunlit: white with\n"
-        "the day's sun",
-        {"day", "white", "sunlit"});
+        ->capture_default_str()
+        ->excludes(file);
+    command->add_option("--camera", r->scene.camera, "of the file: a name or a number; the first without it")
+        ->needs(file);
+    CLI::Option* const sky =
+        choice("--sky", r->scene.sky,
+               "day: blue, with a sun; none: dark; to compare with others, white: as bright everywhere, and "
+               "sunlit:\n"
+               "white with the day's sun; auto: day, but none where a file has lights of its own",
+               {"auto", "day", "none", "white", "sunlit"});
+    CLI::Option* const environment = command
+                                         ->add_option("--env", r->scene.environment,
+                                                      "in its place, an image from all around: .exr or .hdr")
+                                         ->excludes(sky);
+    add_number(*command, "--env-rotation", r->scene.rotation, -3600.0f, 3600.0f,
+               "degrees by which it is turned, counterclockwise seen from above")
+        ->needs(environment);
     add_device(*command, r->device);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }

@@ -156,6 +156,20 @@ Sky constant_sky(float radiance) {
     return sky;
 }
 
+Sky day_sky() {
+    Sky sky;
+    sky.zenith = {0.09f, 0.20f, 0.50f};
+    sky.horizon = {0.82f, 0.86f, 0.92f};
+    sky.ground = {0.5f, 0.52f, 0.55f};
+    sky.to_sun = narrow(unit({-0.55, 0.62, 0.56}));
+    sky.sun_radius = 0.045f;
+    // An irradiance of three times the sky's or so.
+    const double sine = std::sin(sky.sun_radius), irradiance = 3.6;
+    const double radiance = irradiance / (std::numbers::pi * sine * sine);
+    sky.sun = narrow(scaled({1.0, 0.93, 0.82}, radiance));
+    return sky;
+}
+
 const std::vector<std::string>& orb_kinds() {
     static const std::vector<std::string> kinds{"roughness", "anisotropy", "metals",  "diffuse", "clay",
                                                 "glass",     "tinted",     "plastic", "coat",    "gltf"};
@@ -172,15 +186,7 @@ Scene orbs(std::string_view kind) {
         scene.add_sphere({2.3f * static_cast<float>(i - 2), lifted, 0}, 1, 80, materials[i]);
     if (kind == "metals") scene.fresnel = "conductor";
     add_floor(scene);
-    scene.sky.zenith = {0.09f, 0.20f, 0.50f};
-    scene.sky.horizon = {0.82f, 0.86f, 0.92f};
-    scene.sky.ground = {0.5f, 0.52f, 0.55f};
-    scene.sky.to_sun = narrow(unit({-0.55, 0.62, 0.56}));
-    scene.sky.sun_radius = 0.045f;
-    // An irradiance of three times the sky's or so.
-    const double sine = std::sin(scene.sky.sun_radius), irradiance = 3.6;
-    const double radiance = irradiance / (std::numbers::pi * sine * sine);
-    scene.sky.sun = narrow(scaled({1.0, 0.93, 0.82}, radiance));
+    scene.sky = day_sky();
     scene.camera = {{-1.5f, 2.05f, 14.5f}, {0, 0.98f, 0}, 0.82f};
     return scene;
 }

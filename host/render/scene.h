@@ -119,6 +119,8 @@ struct Scene {
 };
 
 Sky constant_sky(float radiance);
+// Blue, with a sun.
+Sky day_sky();
 
 // Five orbs on a floor under a sky with a sun; `kind` is one of orb_kinds().
 Scene orbs(std::string_view kind);
