@@ -59,8 +59,15 @@ bool uses(const Item& root, const char* extension) {
 }
 
 void warn_of(const Json& json, const std::vector<Placed>& nodes, Warnings& warnings) {
-    for (const auto& [name, count] : json.extensions())
-        if (!is_supported(name)) warnings.add("extension left out", in_quotes(name), count);
+    std::size_t named = 0;
+    for (const auto& [name, count] : json.extensions()) {
+        constexpr std::size_t most_named = 16;
+        if (is_supported(name)) continue;
+        warnings.add(named < most_named ? fmt::format("extension {}, left out", in_quotes(name))
+                                        : "other extensions, left out",
+                     "", count);
+        ++named;
+    }
     const Item animations = json.root()["animations"];
     warnings.add("animations, shown at rest", "", animations.size());
     for (const Placed& placed : nodes)
@@ -145,6 +152,7 @@ Loaded load(const std::string& name, std::string_view bytes, const Beside& besid
             if (primitive.triangle_count() == 0) continue;
             const std::uint32_t material = materials.use(primitive.item["material"]);
             const Surface surface = surface_of(primitive, scene.dressings[material], warnings);
+            dropped.without_area += surface.dropped * instances[m].size();
             for (const Affine& to_world : instances[m]) place(surface, to_world, material, scene, dropped);
         }
     }

@@ -35,10 +35,37 @@ std::vector<Corners> corners_of(const Primitive& primitive) {
     return triangles;
 }
 
-// The vertices that triangles use, in order; the triangles then count among these.
-std::vector<std::uint32_t> compacted(std::vector<Corners>& triangles) {
+Vec3 vector_at(const Accessor& accessor, std::size_t i) {
+    return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
+}
+
+// Before vertices are made for them: of an accessor without bytes there can be any number.
+std::size_t drop_degenerate(const Accessor& places, std::vector<Corners>& triangles) {
+    return std::erase_if(triangles, [&](const Corners& triangle) {
+        const Vec3 a = vector_at(places, triangle[0]), b = vector_at(places, triangle[1]),
+                   c = vector_at(places, triangle[2]);
+        return a == b || b == c || c == a;
+    });
+}
+
+// The vertices that triangles use; the triangles then count among these. A file can say that it has any number of vertices: the
+// work is that of the corners.
+std::vector<std::uint32_t> compacted(std::vector<Corners>& triangles, std::size_t vertex_count) {
+    constexpr std::uint32_t none = 0xFFFFFFFF;
     std::vector<std::uint32_t> used;
-    used.reserve(3 * triangles.size());
+    if (vertex_count <= 4 * triangles.size()) {
+        std::vector<std::uint32_t> number_of(vertex_count, none);
+        for (Corners& triangle : triangles)
+            for (std::uint32_t& corner : triangle) {
+                std::uint32_t& number = number_of[corner];
+                if (number == none) {
+                    number = static_cast<std::uint32_t>(used.size());
+                    used.push_back(corner);
+                }
+                corner = number;
+            }
+        return used;
+    }
     for (const Corners& triangle : triangles) used.insert(used.end(), triangle.begin(), triangle.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -59,10 +86,6 @@ std::vector<std::uint32_t> separated(std::vector<Corners>& triangles) {
             corner = static_cast<std::uint32_t>(used.size() - 1);
         }
     return used;
-}
-
-Vec3 vector_at(const Accessor& accessor, std::size_t i) {
-    return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
 }
 
 // Quantised ones are off by less than `tolerance`.
@@ -167,10 +190,11 @@ void make_tangents(Surface& surface, const render::TextureUse& use) {
 Surface surface_of(const Primitive& primitive, const render::Dressing& dressing, Warnings& warnings) {
     Surface surface;
     surface.triangles = corners_of(primitive);
+    surface.dropped = drop_degenerate(*primitive.places, surface.triangles);
     const bool flat = !primitive.normals, wanted = needs_tangents(dressing),
                given = wanted && !flat && primitive.tangents;
     const std::vector<std::uint32_t> used =
-        flat ? separated(surface.triangles) : compacted(surface.triangles);
+        flat ? separated(surface.triangles) : compacted(surface.triangles, primitive.places->count());
     const render::TextureUse& normal_map = dressing.textures[static_cast<std::size_t>(render::Slot::normal)];
     std::array<bool, 2> sets = sets_of(dressing);
     if (wanted) sets[normal_map.set] = true;

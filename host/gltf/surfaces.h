@@ -13,6 +13,7 @@ namespace vndf::gltf {
 struct Surface {
     std::vector<render::Vertex> vertices;
     std::vector<Corners> triangles;
+    std::size_t dropped = 0;  // triangles with two corners at one place
 };
 Surface surface_of(const Primitive& primitive, const render::Dressing& dressing, Warnings& warnings);
 

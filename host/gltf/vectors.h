@@ -29,7 +29,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double length(const Vec3& a) {
-    return std::hypot(a[0], a[1], a[2]);
+    return std::sqrt(dot(a, a));
 }
 // Of length 1; of no or no finite length, all zeros.
 inline Vec3 unit(const Vec3& a) {
