@@ -164,6 +164,18 @@ TEST_CASE("nodes place, turn and mirror what hangs below them") {
     check_near(scene.lights[2].direction, {0, -1, 0});
 }
 
+TEST_CASE("the vertices of a skin are where its joints are, whatever its node says") {
+    const render::Scene scene = load(skinned_file()).scene;
+    check_near(corner(scene, 0, 0).place, {0, 0, 0});
+    check_near(corner(scene, 0, 1).place, {2, 0, 1});
+    check_near(corner(scene, 0, 2).place, {0, 1.5f, 0.5f});
+    // Joints that mirror turn the triangle round.
+    GltfFile file = skinned_file();
+    file.json["nodes"][1]["scale"] = {-1, 1, 1};
+    const render::Scene mirrored = load(file).scene;
+    CHECK(face(mirrored, 0)[2] > 0);
+}
+
 TEST_CASE("normals follow a stretched surface, and tangents a mirrored one") {
     if (!decodes_images) VNDF_SKIP(no_decoder);
     GltfFile file = mapped_file();
