@@ -41,7 +41,7 @@ std::vector<render::PunctualLight> lights_of(const Item& root, const std::vector
                                              Warnings& warnings) {
     const Item items = root["extensions"]["KHR_lights_punctual"]["lights"];
     std::vector<render::PunctualLight> lights;
-    for (const auto& [node, to_world] : nodes) {
+    for (const auto& [node, to_world, number] : nodes) {
         const Item extension = node["extensions"]["KHR_lights_punctual"];
         if (!extension) continue;
         render::PunctualLight light =

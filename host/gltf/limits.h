@@ -11,7 +11,8 @@ struct Limits {
     std::uint64_t json_bytes = std::uint64_t{1} << 29;
     std::uint64_t json_values = std::uint64_t{1} << 23;
     unsigned json_depth = 128;
-    std::uint64_t triangles = std::uint64_t{1} << 24;  // of all instances
+    std::uint64_t triangles =
+        std::uint64_t{1} << 23;  // of all instances; at most 232 bytes each, and as many while they are made
     std::uint64_t sparse_elements = std::uint64_t{1} << 26;
     std::uint64_t image_pixels = std::uint64_t{1} << 26;  // of one image
     std::uint64_t total_pixels = std::uint64_t{1} << 27;

@@ -14,6 +14,7 @@
 #include "gltf/meshes.h"
 #include "gltf/nodes.h"
 #include "gltf/placing.h"
+#include "gltf/skins.h"
 #include "gltf/surfaces.h"
 
 namespace vndf::gltf {
@@ -59,8 +60,15 @@ bool uses(const Item& root, const char* extension) {
 }
 
 void warn_of(const Json& json, const std::vector<Placed>& nodes, Warnings& warnings) {
-    for (const auto& [name, count] : json.extensions())
-        if (!is_supported(name)) warnings.add("extension left out", in_quotes(name), count);
+    std::size_t named = 0;
+    for (const auto& [name, count] : json.extensions()) {
+        constexpr std::size_t most_named = 16;
+        if (is_supported(name)) continue;
+        warnings.add(named < most_named ? fmt::format("extension {}, left out", in_quotes(name))
+                                        : "other extensions, left out",
+                     "", count);
+        ++named;
+    }
     const Item animations = json.root()["animations"];
     warnings.add("animations, shown at rest", "", animations.size());
     for (const Placed& placed : nodes)
@@ -85,16 +93,22 @@ void warn_of(const Primitive& primitive, Warnings& warnings) {
     root.fail("nothing to render: " + why);
 }
 
+struct Instance {
+    Affine to_world;
+    Item skin;  // which alone says where it is, if it is there
+};
+
 // Where each mesh is.
-std::vector<std::vector<Affine>> instances_of(std::size_t meshes, const std::vector<Placed>& nodes) {
-    std::vector<std::vector<Affine>> instances(meshes);
-    for (const auto& [node, to_world] : nodes)
-        if (const Item mesh = node["mesh"]) instances[mesh.index(meshes, "mesh")].push_back(to_world);
+std::vector<std::vector<Instance>> instances_of(std::size_t meshes, const std::vector<Placed>& nodes) {
+    std::vector<std::vector<Instance>> instances(meshes);
+    for (const auto& [node, to_world, number] : nodes)
+        if (const Item mesh = node["mesh"])
+            instances[mesh.index(meshes, "mesh")].push_back({to_world, node["skin"]});
     return instances;
 }
 
 std::size_t count_triangles(const Item& root, const std::vector<std::vector<Primitive>>& meshes,
-                            const std::vector<std::vector<Affine>>& instances, const Limits& limits) {
+                            const std::vector<std::vector<Instance>>& instances, const Limits& limits) {
     std::uint64_t count = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m)
         for (const Primitive& primitive : meshes[m]) {
@@ -129,6 +143,7 @@ Loaded load(const std::string& name, std::string_view bytes, const Beside& besid
     const auto meshes = read_meshes(root, accessors, materials, uses(root, "KHR_mesh_quantization"));
     const std::vector<Placed> nodes = placed_nodes(root, warnings);
     const auto instances = instances_of(meshes.size(), nodes);
+    Skins skins(root, accessors, nodes);
     loaded.triangles = count_triangles(root, meshes, instances, limits);
     const std::optional<render::Camera> found = camera_of(root, nodes, camera);
     scene.lights = lights_of(root, nodes, warnings);
@@ -145,7 +160,16 @@ Loaded load(const std::string& name, std::string_view bytes, const Beside& besid
             if (primitive.triangle_count() == 0) continue;
             const std::uint32_t material = materials.use(primitive.item["material"]);
             const Surface surface = surface_of(primitive, scene.dressings[material], warnings);
-            for (const Affine& to_world : instances[m]) place(surface, to_world, material, scene, dropped);
+            dropped.without_area += surface.dropped.without_area * instances[m].size();
+            dropped.out_of_range += surface.dropped.out_of_range * instances[m].size();
+            for (const auto& [to_world, skin] : instances[m]) {
+                const bool moved = skin && !primitive.joints.empty();
+                if (moved)
+                    place(posed(surface, primitive, skins.joints(skin), warnings), {}, material, scene,
+                          dropped);
+                else
+                    place(surface, to_world, material, scene, dropped);
+            }
         }
     }
     warnings.add("triangles without an area that floats can square, dropped", "", dropped.without_area);

@@ -27,6 +27,8 @@ const Format coordinates{"TEXCOORD",
                          {{f32, false}, {u8, true}, {u16, true}},
                          {{i8, false}, {i8, true}, {u8, false}, {i16, false}, {i16, true}, {u16, false}}};
 const Format colour_format{"COLOR_0", {"VEC3", "VEC4"}, {{f32, false}, {u8, true}, {u16, true}}, {}};
+const Format joint_format{"JOINTS", {"VEC4"}, {{u8, false}, {u16, false}}, {}};
+const Format weight_format{"WEIGHTS", {"VEC4"}, {{f32, false}, {u8, true}, {u16, true}}, {}};
 const Format index_format{"indices", {"SCALAR"}, {{u8, false}, {u16, false}, {u32, false}}, {}};
 
 const Accessor* attribute(const Accessors& accessors, const Item& index, const Format& format,
@@ -72,6 +74,9 @@ Primitive read_primitive(const Item& item, const Accessors& accessors, const Mat
     primitive.tangents = read("TANGENT", tangent_format);
     primitive.uv = {read("TEXCOORD_0", coordinates), read("TEXCOORD_1", coordinates)};
     primitive.colours = read("COLOR_0", colour_format);
+    for (const auto& [joints, weights] : {std::pair{"JOINTS_0", "WEIGHTS_0"}, {"JOINTS_1", "WEIGHTS_1"}})
+        if (attributes[joints] && attributes[weights])
+            primitive.joints.emplace_back(read(joints, joint_format), read(weights, weight_format));
     if (!primitive.places && !primitive.lack) primitive.lack = "primitives without POSITION, left out";
     return primitive;
 }

@@ -21,6 +21,7 @@ struct Primitive {
     const Accessor* tangents = nullptr;
     std::array<const Accessor*, 2> uv{};
     const Accessor* colours = nullptr;
+    std::vector<std::pair<const Accessor*, const Accessor*>> joints{};  // and their weights, four each
 
     std::size_t corner_count() const { return indices ? indices->count() : places->count(); }
     std::size_t triangle_count() const;

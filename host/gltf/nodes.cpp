@@ -125,7 +125,7 @@ std::vector<Placed> placed_nodes(const Item& root, Warnings& warnings) {
         open.pop_back();
         const Item item = nodes.at(node);
         const Affine to_world = parent * local_of(item, warnings);
-        placed.push_back({item, to_world});
+        placed.push_back({item, to_world, node});
         const std::vector<std::size_t>& children = tree.children[node];
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             open.push_back({*child, to_world});

@@ -13,6 +13,7 @@ namespace vndf::gltf {
 struct Placed {
     Item node;
     Affine to_world;
+    std::size_t number;
 };
 
 // The nodes of the scene that the file says is to be shown, or else of the first. Every node of the file is in one place of one

@@ -15,16 +15,11 @@ class Placer {
     Placer(const Surface& surface, const Affine& to_world, std::uint32_t material, render::Scene& scene)
         : surface_(surface),
           to_world_(to_world),
+          normals_(to_world.of_normals()),
           mirrored_(to_world.determinant() < 0),
           material_(material),
           scene_(scene),
-          number_of_(surface.vertices.size(), none) {
-        // The inverse's transpose but for a positive factor.
-        const double sign = mirrored_ ? -1 : 1;
-        for (int axis = 0; axis < 3; ++axis)
-            normals_.columns[axis] =
-                sum({}, sign, cross(to_world.columns[(axis + 1) % 3], to_world.columns[(axis + 2) % 3]));
-    }
+          number_of_(surface.vertices.size(), none) {}
 
     void place(Corners corners, Dropped& dropped) {
         if (mirrored_) std::swap(corners[1], corners[2]);

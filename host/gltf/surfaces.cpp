@@ -35,10 +35,44 @@ std::vector<Corners> corners_of(const Primitive& primitive) {
     return triangles;
 }
 
-// The vertices that triangles use, in order; the triangles then count among these.
-std::vector<std::uint32_t> compacted(std::vector<Corners>& triangles) {
+Vec3 vector_at(const Accessor& accessor, std::size_t i) {
+    return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
+}
+
+// Those without places that are numbers, or with two corners at one: before vertices are made for them, since an accessor without
+// bytes has any number.
+Dropped drop_unseen(const Accessor& places, std::vector<Corners>& triangles) {
+    Dropped dropped;
+    std::erase_if(triangles, [&](const Corners& triangle) {
+        const Vec3 a = vector_at(places, triangle[0]), b = vector_at(places, triangle[1]),
+                   c = vector_at(places, triangle[2]);
+        const bool out_of_range = !is_finite(a) || !is_finite(b) || !is_finite(c),
+                   without_area = !out_of_range && (a == b || b == c || c == a);
+        dropped.out_of_range += out_of_range;
+        dropped.without_area += without_area;
+        return out_of_range || without_area;
+    });
+    return dropped;
+}
+
+// The vertices that triangles use; the triangles then count among these. A file can say that it has any number of vertices: the
+// work is that of the corners.
+std::vector<std::uint32_t> compacted(std::vector<Corners>& triangles, std::size_t vertex_count) {
+    constexpr std::uint32_t none = 0xFFFFFFFF;
     std::vector<std::uint32_t> used;
-    used.reserve(3 * triangles.size());
+    if (vertex_count <= 4 * triangles.size()) {
+        std::vector<std::uint32_t> number_of(vertex_count, none);
+        for (Corners& triangle : triangles)
+            for (std::uint32_t& corner : triangle) {
+                std::uint32_t& number = number_of[corner];
+                if (number == none) {
+                    number = static_cast<std::uint32_t>(used.size());
+                    used.push_back(corner);
+                }
+                corner = number;
+            }
+        return used;
+    }
     for (const Corners& triangle : triangles) used.insert(used.end(), triangle.begin(), triangle.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -59,10 +93,6 @@ std::vector<std::uint32_t> separated(std::vector<Corners>& triangles) {
             corner = static_cast<std::uint32_t>(used.size() - 1);
         }
     return used;
-}
-
-Vec3 vector_at(const Accessor& accessor, std::size_t i) {
-    return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
 }
 
 // Quantised ones are off by less than `tolerance`.
@@ -140,6 +170,7 @@ void give_tangents(Surface& surface, const Tangents& tangents) {
             if (is_new) {
                 surface.vertices.push_back(surface.vertices[corner]);
                 surface.vertices.back().tangent = tangents.groups[group];
+                surface.sources.push_back(surface.sources[corner]);
             }
             corner = found->second;
         }
@@ -155,10 +186,7 @@ void make_tangents(Surface& surface, const render::TextureUse& use) {
         const std::array<float, 6>& m = use.transform;
         mesh.uv.push_back({m[0] * u + m[1] * v, m[3] * u + m[4] * v});
     }
-    for (const Corners& triangle : surface.triangles)
-        if (std::all_of(triangle.begin(), triangle.end(),
-                        [&](std::uint32_t i) { return is_finite(mesh.places[i]); }))
-            mesh.triangles.push_back(triangle);
+    mesh.triangles = surface.triangles;
     give_tangents(surface, tangents_of(mesh));
 }
 
@@ -167,10 +195,11 @@ void make_tangents(Surface& surface, const render::TextureUse& use) {
 Surface surface_of(const Primitive& primitive, const render::Dressing& dressing, Warnings& warnings) {
     Surface surface;
     surface.triangles = corners_of(primitive);
+    surface.dropped = drop_unseen(*primitive.places, surface.triangles);
     const bool flat = !primitive.normals, wanted = needs_tangents(dressing),
                given = wanted && !flat && primitive.tangents;
-    const std::vector<std::uint32_t> used =
-        flat ? separated(surface.triangles) : compacted(surface.triangles);
+    surface.sources =
+        flat ? separated(surface.triangles) : compacted(surface.triangles, primitive.places->count());
     const render::TextureUse& normal_map = dressing.textures[static_cast<std::size_t>(render::Slot::normal)];
     std::array<bool, 2> sets = sets_of(dressing);
     if (wanted) sets[normal_map.set] = true;
@@ -178,8 +207,8 @@ Surface surface_of(const Primitive& primitive, const render::Dressing& dressing,
         if (sets[set] && !primitive.uv[set] && !(given && set == 0))
             warnings.add("meshes without the coordinates that a material's textures ask for, which are 0",
                          primitive.item.place());
-    surface.vertices.reserve(used.size());
-    for (const std::uint32_t i : used)
+    surface.vertices.reserve(surface.sources.size());
+    for (const std::uint32_t i : surface.sources)
         surface.vertices.push_back(vertex_of(primitive, sets, given, i, warnings));
     if (flat)
         for (const Corners& triangle : surface.triangles) {

@@ -29,7 +29,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double length(const Vec3& a) {
-    return std::hypot(a[0], a[1], a[2]);
+    return std::sqrt(dot(a, a));
 }
 // Of length 1; of no or no finite length, all zeros.
 inline Vec3 unit(const Vec3& a) {
@@ -56,6 +56,14 @@ struct Affine {
         return sum(sum(sum({}, v[0], columns[0]), v[1], columns[1]), v[2], columns[2]);
     }
     Vec3 point(const Vec3& v) const { return sum(direction(v), 1, columns[3]); }
+    // Where normals go, but for a positive factor.
+    Affine of_normals() const {
+        const double sign = determinant() < 0 ? -1 : 1;
+        Affine result;
+        for (int axis = 0; axis < 3; ++axis)
+            result.columns[axis] = sum({}, sign, cross(columns[(axis + 1) % 3], columns[(axis + 2) % 3]));
+        return result;
+    }
     double determinant() const { return dot(columns[0], cross(columns[1], columns[2])); }
     Affine operator*(const Affine& inner) const {
         return {{direction(inner.columns[0]), direction(inner.columns[1]), direction(inner.columns[2]),

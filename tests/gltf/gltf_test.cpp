@@ -13,6 +13,7 @@
 #include "sound.h"
 #include "support/catch.h"
 #include "support/gltf_cases.h"
+#include "support/skip.h"
 
 using namespace vndf;
 using namespace vndf::test;
@@ -78,6 +79,14 @@ const render::TextureUse& use_of(const render::Scene& scene, Slot slot) {
     return scene.dressings.at(0).textures[static_cast<std::size_t>(slot)];
 }
 
+// Where this build decodes no images, what needs them is not tested.
+#if CLVNDF_PNG && CLVNDF_JPEG
+constexpr bool decodes_images = true;
+#else
+constexpr bool decodes_images = false;
+#endif
+constexpr const char* no_decoder = "this build lacks libpng or libjpeg";
+
 std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
     return r | g << 8 | b << 16 | a << 24;
 }
@@ -85,6 +94,7 @@ std::uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
 }  // namespace
 
 TEST_CASE("every defect is refused in one line that names its place, or shown with a warning") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     for (const GltfCase& one : defects()) {
         CAPTURE(one.name);
         std::string error, warnings;
@@ -105,6 +115,7 @@ TEST_CASE("every defect is refused in one line that names its place, or shown wi
 }
 
 TEST_CASE("sound files are read without a warning, as text and as GLB") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     for (const GltfCase& one : sound_cases()) {
         CAPTURE(one.name);
         const gltf::Loaded loaded = load(one.bytes);
@@ -153,7 +164,20 @@ TEST_CASE("nodes place, turn and mirror what hangs below them") {
     check_near(scene.lights[2].direction, {0, -1, 0});
 }
 
+TEST_CASE("the vertices of a skin are where its joints are, whatever its node says") {
+    const render::Scene scene = load(skinned_file()).scene;
+    check_near(corner(scene, 0, 0).place, {0, 0, 0});
+    check_near(corner(scene, 0, 1).place, {2, 0, 1});
+    check_near(corner(scene, 0, 2).place, {0, 1.5f, 0.5f});
+    // Joints that mirror turn the triangle round.
+    GltfFile file = skinned_file();
+    file.json["nodes"][1]["scale"] = {-1, 1, 1};
+    const render::Scene mirrored = load(file).scene;
+    CHECK(face(mirrored, 0)[2] > 0);
+}
+
 TEST_CASE("normals follow a stretched surface, and tangents a mirrored one") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     GltfFile file = mapped_file();
     file.attributes()["NORMAL"] = file.accessor<float>({0, 0.6f, 0.8f, 0, 0.6f, 0.8f, 0, 0.6f, 0.8f}, "VEC3");
     file.attributes()["TANGENT"] = file.accessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
@@ -248,6 +272,7 @@ TEST_CASE("strides are kept, of vertices and of what a sparse accessor puts over
 }
 
 TEST_CASE("a material says all that it can") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     const render::Scene scene = load(rich_file()).scene;
     REQUIRE(scene.dressings.size() == 1);
     const render::GltfMaterial& m = scene.dressings[0].factors;
@@ -283,6 +308,7 @@ TEST_CASE("a material says all that it can") {
 }
 
 TEST_CASE("what a factor of 0 leaves unseen is not read") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     GltfFile file = rich_file();
     nlohmann::json& material = file.material();
     material["emissiveFactor"] = {0, 0, 0};
@@ -303,6 +329,7 @@ TEST_CASE("what a factor of 0 leaves unseen is not read") {
 }
 
 TEST_CASE("what transmits without a thickness is thin, unlit materials are nothing else, an ior of 0 stays") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     GltfFile file = rich_file();
     nlohmann::json& extensions = file.material()["extensions"];
     extensions["KHR_materials_volume"]["thicknessFactor"] = 0;
@@ -320,6 +347,7 @@ TEST_CASE("what transmits without a thickness is thin, unlit materials are nothi
 }
 
 TEST_CASE("textures have their samplers, and coordinates of a set and transform of their own") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     GltfFile file = textured_file(small_png());
     file.attributes()["TEXCOORD_1"] = file.accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
     file.json["textures"][0]["sampler"] = 0;
@@ -342,6 +370,7 @@ TEST_CASE("textures have their samplers, and coordinates of a set and transform 
 }
 
 TEST_CASE("pixels of every kind of PNG, and of JPEG") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     const std::string palette = png_chunk("PLTE", std::string("\x0A\x14\x1E\x28\x32\x3C", 6)),
                       alphas = png_chunk("tRNS", std::string("\x80", 1)),
                       gamma = png_chunk("gAMA", big_endian(20000));  // to be ignored
@@ -387,6 +416,7 @@ TEST_CASE("pixels of every kind of PNG, and of JPEG") {
 }
 
 TEST_CASE("tangents are made where the normal map has none, and mirrored coordinates share no vertex") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     // Two triangles over an edge on the y axis; u runs away from it on both sides, v up in space is down in images.
     GltfFile file = triangle_file();
     file.attributes()["POSITION"] = file.accessor<float>({0, 0, 0, 0, 1, 0, -1, 0, 0, 1, 0, 0}, "VEC3");
@@ -408,6 +438,7 @@ TEST_CASE("tangents are made where the normal map has none, and mirrored coordin
 }
 
 TEST_CASE("a tangent is the mean by angles of the triangles around") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     // A fan about the origin whose coordinates are sheared in the second triangle: tangents along x and along (1, 1).
     GltfFile file = triangle_file();
     file.attributes()["POSITION"] = file.accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 1, 0}, "VEC3");
@@ -432,7 +463,44 @@ TEST_CASE("normals without a direction are those of the triangle") {
     CHECK(loaded.warnings[0].second == 2);
 }
 
+TEST_CASE("vertices that no triangle uses are left out, however many there are") {
+    for (const std::uint32_t count : {4u, 5u, 4000000000u}) {
+        CAPTURE(count);
+        GltfFile file = triangle_file();
+        // Zeros but for the last three. Accessors and views have the same numbers.
+        const std::size_t numbers = file.accessor<std::uint32_t>({count - 3, count - 2, count - 1}, "SCALAR"),
+                          places = file.accessor<float>({0, 0, 1, 1, 0, 1, 0, 1, 1}, "VEC3");
+        file.json["accessors"].push_back({{"componentType", 5126},
+                                          {"count", count},
+                                          {"type", "VEC3"},
+                                          {"sparse",
+                                           {{"count", 3},
+                                            {"indices", {{"bufferView", numbers}, {"componentType", 5125}}},
+                                            {"values", {{"bufferView", places}}}}}});
+        file.attributes()["POSITION"] = places + 1;
+        file.primitive()["indices"] = numbers;
+        const render::Scene scene = load(file).scene;
+        CHECK(scene.vertices.size() == 3);
+        CHECK(corner(scene, 0, 0).place == render::Vec{0, 0, 1});
+        CHECK(corner(scene, 0, 1).place == render::Vec{1, 0, 1});
+        CHECK(corner(scene, 0, 2).place == render::Vec{0, 1, 1});
+    }
+}
+
+TEST_CASE("each extension that is left out is named, up to a number, and counted") {
+    GltfFile file = triangle_file();
+    for (int i = 0; i < 20; ++i)
+        file.json["nodes"][0]["extensions"][fmt::format("EXT_{:02}", i)] = nlohmann::json::object();
+    file.json["meshes"][0]["extensions"]["EXT_00"] = nlohmann::json::object();
+    file.json["meshes"][0]["extras"]["extensions"]["EXT_extra"] = nlohmann::json::object();
+    const auto warnings = load(file).warnings;
+    REQUIRE(warnings.size() == 17);
+    CHECK(warnings[0] == std::pair<std::string, std::size_t>{"extension 'EXT_00', left out", 2});
+    CHECK(warnings[16] == std::pair<std::string, std::size_t>{"other extensions, left out", 4});
+}
+
 TEST_CASE("limits are held before memory is asked for") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
     gltf::Limits limits;
     limits.triangles = 1;
     CHECK(refusal("memory", triangle_file().gltf(), no_file, "", limits) == "");

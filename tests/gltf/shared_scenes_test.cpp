@@ -147,6 +147,9 @@ void require_complete(const std::filesystem::path& folder, const std::vector<Row
 
 TEST_CASE("real scenes are read whole") {
     if (scenes().empty()) VNDF_SKIP("CLVNDF_SCENES names no folder");
+#if !(CLVNDF_PNG && CLVNDF_JPEG)
+    VNDF_SKIP("this build lacks libpng or libjpeg");
+#endif
     require_complete(scenes() / "valid", valid);
     for (const Valid& expected : valid) {
         CAPTURE(expected.file);
@@ -165,6 +168,9 @@ TEST_CASE("real scenes are read whole") {
 
 TEST_CASE("broken files are refused in one line or shown with a warning") {
     if (scenes().empty()) VNDF_SKIP("CLVNDF_SCENES names no folder");
+#if !(CLVNDF_PNG && CLVNDF_JPEG)
+    VNDF_SKIP("this build lacks libpng or libjpeg");
+#endif
     require_complete(scenes() / "broken", broken);
     for (const Broken& expected : broken) {
         CAPTURE(expected.file);

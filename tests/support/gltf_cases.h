@@ -150,6 +150,24 @@ inline GltfFile sparse_file() {
     return file;
 }
 
+// A triangle whose corners hang at one joint, at the other, and between both; its own node is elsewhere.
+inline GltfFile skinned_file() {
+    GltfFile file = triangle_file();
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 0, 0}}},
+                          {{"translation", {0, 0, 1}}, {"children", {2}}},
+                          {{"scale", {2, 2, 2}}}};
+    file.attributes()["JOINTS_0"] = file.accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}, "VEC4");
+    file.attributes()["WEIGHTS_0"] = file.accessor<float>({1, 0, 0, 0, 2, 0, 0, 0, 0.5, 0.5, 0, 0}, "VEC4");
+    const std::size_t inverses = file.accessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1,  //
+                                                       1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,  1},
+                                                      "VEC4");
+    file.json["accessors"][inverses]["type"] = "MAT4";
+    file.json["accessors"][inverses]["count"] = 2;
+    file.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", inverses}}};
+    return file;
+}
+
 inline std::vector<GltfCase> sound_cases() {
     GltfFile chunked = busy_file();
     std::string more = chunked.glb() + little_endian(4) + "ODD!abcd";
@@ -272,6 +290,20 @@ inline std::vector<GltfCase> defects() {
         }(),
         "", "no numbers or too far, dropped");
     add(
+        "mesh-nan_mapped",
+        [] {
+            GltfFile file = mapped_file();
+            file.attributes()["POSITION"] =
+                file.accessor<float>({NAN, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+            file.attributes()["NORMAL"] =
+                file.accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+            file.attributes()["TEXCOORD_0"] =
+                file.accessor<float>({0, 1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0}, "VEC2");
+            file.material()["normalTexture"]["index"] = file.texture(small_png());
+            return file;
+        }(),
+        "", "no numbers or too far, dropped");
+    add(
         "mesh-far",
         [] {
             GltfFile file = triangle_file();
@@ -383,7 +415,17 @@ inline std::vector<GltfCase> defects() {
     add("asset-version", edited("/asset/version", "3.0"), "asset.version: '3.0'");
     add("asset-min_version", edited("/asset/minVersion", "2.1"), "asset.minVersion: '2.1'");
     add("asset-none", edited("/asset", nullptr), "asset: null is no object");
-    add("skin", edited("/nodes/0/skin", 0), "", "skins, shown at rest");
+    add("skin", skinned_file(), "", "skins, shown at rest");
+    add("skin-none", edited("/nodes/0/skin", 1, skinned_file()), "there is no skin 1");
+    add("skin-no_joints", edited("/skins/0/joints", nlohmann::json::array(), skinned_file()),
+        "without joints");
+    add("skin-joint", edited("/skins/0/joints", {1}, skinned_file()), "joint 1 of vertex 1: its skin has 1");
+    add("skin-elsewhere", edited("/scenes/0/nodes", {0}, skinned_file()),
+        "skins[0].joints[0]: a joint that is not");
+    add("skin-inverses", edited("/skins/0/inverseBindMatrices", 0, skinned_file()),
+        "not a MAT4 of floats for each of 2");
+    add("skin-weights", edited("/accessors/2/type", "VEC3", skinned_file()), "WEIGHTS_0: VEC3");
+    add("skin-unused", edited("/nodes/0/skin", 0), "", "skins, shown at rest");
     add("morph", edited("/meshes/0/primitives/0/targets", {{{"POSITION", 0}}}), "", "morph targets");
     add("animation", edited("/animations", nlohmann::json::array({nlohmann::json::object()})), "",
         "animations");
