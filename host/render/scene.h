@@ -81,8 +81,9 @@ struct PunctualLight {
 };
 
 struct Camera {
-    Vec eye{0, 0, 5}, target{}, up{0, 1, 0};
-    float width = 1;        // of the film at distance 1
+    Vec eye{0, 0, 5}, target{};
+    float width = 1;  // of the film at distance 1
+    Vec up{0, 1, 0};
     float height = 0;       // if > 0, that of the film, and the width goes by the image
     bool parallel = false;  // rays: then the film is that large wherever it is
 };
