@@ -80,10 +80,21 @@ const std::map<std::string, std::function<std::string(const Scene&)>>& callers()
                  return m.tint != Vec{1, 1, 1} || m.transmittance != Vec{1, 1, 1};
              });
          }},
+        {"specular",
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) {
+                 return dielectric(m) && (m.specular != 1 || m.specular_colour != Vec{1, 1, 1});
+             });
+         }},
+        {"thin_walled",
+         [](const Scene& s) {
+             return materials_that(s, [](const Material& m) { return transmits(m) && m.thin_walled; });
+         }},
         {"absorption",
          [](const Scene& s) {
-             return materials_that(s,
-                                   [](const Material& m) { return transmits(m) && m.absorption != Vec{}; });
+             return materials_that(s, [](const Material& m) {
+                 return transmits(m) && !m.thin_walled && m.absorption != Vec{};
+             });
          }},
         {"dispersion",
          [](const Scene& s) {

@@ -98,6 +98,13 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #if VNDF_TINT
     b.transmittance = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_TRANSMITTANCE);
 #endif
+#if VNDF_SPECULAR
+    b.specular = materials[VNDF_MATERIAL_SPECULAR * row.count + row.number];
+    b.specular_colour = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_SPECULAR_COLOUR);
+#endif
+#if VNDF_THIN_WALLED
+    b.thin_walled = materials[VNDF_MATERIAL_THIN_WALLED * row.count + row.number] != 0.0f;
+#endif
 #if VNDF_DISPERSION
     b.dispersion = materials[VNDF_MATERIAL_DISPERSION * row.count + row.number];
     b.channel = channel;
