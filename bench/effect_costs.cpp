@@ -76,6 +76,7 @@ void fill(const runtime::Program& program, std::vector<cl::Buffer>& buffers) {
         columns[1][i] = static_cast<float>(r * std::sin(phi));
         of("alpha_x")[i] = of("alpha_y")[i] = static_cast<float>(std::exp(-7 * draw.uniform()));
         of("ior")[i] += 1;
+        of("thin_walled")[i] = std::floor(1.25f * of("thin_walled")[i]);
         of("channel")[i] = std::floor(3 * of("channel")[i]);
         of("ng_x")[i] = of("ng_y")[i] = .1f, of("ng_z")[i] = .99f;
     }

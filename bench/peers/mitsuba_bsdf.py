@@ -59,8 +59,9 @@ class Ours:
         """An entry point of batch/bsdf.cl over columns: `first`, and the material by its arguments' names, 0 unless said."""
         one, none = np.ones(ROWS), np.zeros(ROWS)
         material = {"alpha_x": i.alpha_x, "alpha_y": i.alpha_y, "metal": one if i.conductor else none, "ior": i.ior,
-                    "transmission": one, "ng_z": one}
-        for colour, column in (("first", i.eta), ("second", i.k), ("tint", one), ("transmittance", one)):
+                    "transmission": one, "specular": one, "ng_z": one}
+        for colour, column in (("first", i.eta), ("second", i.k), ("tint", one), ("transmittance", one),
+                               ("specular_colour", one)):
             material.update({f"{colour}_{channel}": column for channel in "rgb"})
         kernel = cl.Kernel(self.program, name)
         arguments = [kernel.get_arg_info(k, cl.kernel_arg_info.NAME) for k in range(len(first), kernel.num_args - outputs)]

@@ -121,6 +121,9 @@ struct MaterialParameters {
     Rgb<R> transmittance;
     R diffuse_roughness, coat, coat_alpha;
     Vec3<R> ng;
+    R specular = 1;
+    Rgb<R> specular_colour{1, 1, 1};
+    bool thin_walled = false;
 };
 
 // What single scattering loses along wo and wi, both above the surface, and in the mean: given, not derived here.
@@ -175,8 +178,32 @@ struct MaterialValue {
 template <class R>
 struct Interface {
     R here, there;
+    bool body = false;
+    R specular = 1;
+    Rgb<R> colour{1, 1, 1};
 
-    R reflectance(const R& cosine) const { return fresnel_dielectric<R>(cosine, there / here); }
+    R by_index(const R& cosine) const { return fresnel_dielectric<R>(cosine, there / here); }
+    R upright() const { return squared((there - here) / (there + here)); }
+    // KHR_materials_specular: from specular min(F0 colour, 1) to specular, by the rise of f from F0 to 1.
+    R strengthened(const R& f, const R& tint) const {
+        const R f0 = std::min<R>(upright() * tint, 1), rise = (f - upright()) / (1 - upright());
+        return specular * std::max<R>(f0 + (1 - f0) * rise, 0);
+    }
+    R reflectance(const R& cosine, const R& tint) const {
+        const R f = by_index(cosine);
+        // All of it, from inside: nothing can leave.
+        return body && there < here && f >= 1 ? R(1) : strengthened(f, tint);
+    }
+    R brightest() const { return std::max({colour[0], colour[1], colour[2]}); }
+    // What does not get in; what is made a probability of, where it is of one facet for all.
+    R reflectance(const R& cosine) const { return reflectance(cosine, brightest()); }
+    R chance(const R& cosine) const { return reflectance(cosine, std::max<R>(brightest(), 1)); }
+    // What the rounding of F and of (colour - 1) F0 / (1 - F0) make of a reflectance.
+    R rounding(const R& cosine, const R& tint) const {
+        const R moved = std::min<R>(std::abs(tint - 1) * upright() / (1 - upright()), 1);
+        return moved == 0 ? R(0) : R(specular * (by_index(cosine) + moved));
+    }
+    R rounding(const R& cosine) const { return rounding(cosine, brightest()); }
 
     // Of the normal that refracts wo to wi: -(here wo + there wi), on wo's side.
     Vec3<R> normal(const Vec3<R>& wo, const Vec3<R>& wi) const {
@@ -200,17 +227,26 @@ struct Interface {
     // The probability with which a lobe that is chosen before its normal is a reflection.
     R expected(const R& mean_cosine, const R& ax, const R& ay) const {
         const R rough = ax < ay ? ay : ax;
-        return reflectance(mean_cosine) * (R(63) / 64 - rough / (1 + rough) / 2);
+        return strengthened(by_index(mean_cosine) * (R(63) / 64 - rough / (1 + rough) / 2),
+                            std::max<R>(brightest(), 1));
     }
 };
 
-// What a smooth interface makes of a diffuse albedo: light that is reflected inwards meets the surface again.
+// What a smooth interface makes of a diffuse albedo: light that is reflected inwards meets the surface again. Of white paint
+// everything leaves that gets in.
 template <class R>
-R diffuse_under(const R& albedo, const R& ior) {
-    const R dense = ior < 1 ? 1 / ior : ior, x = dense - 1;
-    const R q = R(2.267723) * x + R(1.27565832) * x * x + R(.22263203) * x * x * x, inwards = q / (1 + q);
-    return albedo / (dense * dense) / (1 - albedo * inwards);
-}
+struct DiffuseUnder {
+    R dense, kept_in, lets_in;  // of diffuse light, from inside and from outside
+    DiffuseUnder(const Interface<R>& media, const R& ior) {
+        dense = ior < 1 ? 1 / ior : ior;
+        const R x = dense - 1;
+        const R q = R(2.267723) * x + R(1.27565832) * x * x + R(.22263203) * x * x * x, inwards = q / (1 + q);
+        kept_in = media.strengthened(inwards, media.brightest());
+        lets_in = 1 - media.strengthened(1 - dense * dense * (1 - inwards), media.brightest());
+    }
+    R once() const { return lets_in > 0 ? R((1 - kept_in) / lets_in) : R(0); }
+    R operator()(const R& albedo) const { return albedo * once() / (1 - albedo * kept_in); }
+};
 
 // Oren and Nayar's surface as Fujii improved it, with what it loses between its facets given back as Kulla and Conty do: BSDF times
 // pi. Portsmouth, Kutz & Hill 2025.
@@ -287,13 +323,16 @@ class MaterialView {
         p_.alpha_x = within<R>(p.alpha_x, least, 1000), p_.alpha_y = within<R>(p.alpha_y, least, 1000);
         p_.metal = within<R>(p.metal, 0, 1), p_.transmission = within<R>(p.transmission, 0, 1);
         p_.ior = within<R>(p.ior, R(1e-3), 1000);
-        inside_ = behind_ && transmits();
-        media_ = inside_ ? Interface<R>{p_.ior, 1} : Interface<R>{1, p_.ior};
+        const bool body = transmits() && !p.thin_walled;
+        inside_ = behind_ && body;
+        const R strength = within<R>(p.specular, 0, 1);
+        media_ = inside_ ? Interface<R>{p_.ior, 1, body, strength, p.specular_colour}
+                         : Interface<R>{1, p_.ior, body, strength, p.specular_colour};
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         p_.diffuse_roughness = within<R>(p.diffuse_roughness, 0, 1);
         p_.coat = within<R>(p.coat, 0, 1), p_.coat_alpha = within<R>(p.coat_alpha, least, 1);
-        // From the denser side of what transmits bounded and conic sampling are plain.
-        const bool denser = transmits() && media_.there < media_.here;
+        // From the denser side of a body bounded and conic sampling are plain.
+        const bool denser = body && media_.there < media_.here;
         base_ = facets(p_.alpha_x, p_.alpha_y, denser ? MaterialModel::Sampling::plain : model.sampling);
         coat_ = facets(p_.coat_alpha, p_.coat_alpha, model.sampling);
         if (model.energy == MaterialModel::Energy::kulla_conty)
@@ -304,7 +343,7 @@ class MaterialView {
     MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
         if (model_.energy != MaterialModel::Energy::none) return coated(wi, compensated(wi, losses));
-        MaterialValue<R> value = crosses(wi) ? refracted(wi) : reflected(wi);
+        MaterialValue<R> value = !crosses(wi) ? reflected(wi) : media_.body ? refracted(wi) : straight(wi);
         if (inside_ && !moved_) add_index_slope(direction, value);
         return moved_ ? value : coated(wi, value);
     }
@@ -341,7 +380,7 @@ class MaterialView {
         const R chance = inside_ ? R(0) : kept(wo_.z), own = inside_ ? R(0) : slope(wo_.z),
                 z = std::abs(wi.z);
         R lets_through = 1 - chance, lets_slope = own;
-        if (through == inside_ && 1 - kept(z) < lets_through)
+        if ((through && media_.body) == inside_ && 1 - kept(z) < lets_through)
             lets_through = 1 - kept(z), lets_slope = slope(z);
         for (int c = 0; c < 3; ++c) {
             value.slope[c] = value.slope[c] * lets_through + value.f[c] * lets_slope;
@@ -385,13 +424,15 @@ class MaterialView {
     // What a rough one has beyond Lambert's under an interface that bends both directions, before it lets them through.
     std::pair<R, R> beyond_lambert(const R& albedo, const Vec3<R>& wi) const {
         if (p_.diffuse_roughness == 0) return {R(0), R(0)};
-        const R dense = p_.ior < 1 ? 1 / p_.ior : p_.ior, square = dense * dense;
+        // A weaker interface is one that bends less.
+        const DiffuseUnder<R> under(media_, p_.ior);
+        const R dense = 1 + media_.specular * (under.dense - 1), square = dense * dense;
         const auto bent = [&](const R& z) { return std::sqrt(1 - (1 - z * z) / square); };
         const R o = bent(wo_.z), i = bent(wi.z), x = wo_.x * wi.x / square, y = wo_.y * wi.y / square;
         const R back = dense == 1 ? R(0) : -(kept_inside(o, dense) + kept_inside(i, dense));
         const RoughDiffuse<R> rough{p_.diffuse_roughness};
         const R size = rough.size(albedo, o, i, std::abs(x) + std::abs(y), R(4));
-        return {(rough(albedo, o, i, x + y, back) - albedo) / square, size / square};
+        return {(rough(albedo, o, i, x + y, back) - albedo) * under.once(), size * under.once()};
     }
 
     // Without a dielectric: energy models are of conductors.
@@ -428,7 +469,10 @@ class MaterialView {
         return value;
     }
 
-    bool by_normal() const { return base_.sampling == MaterialModel::Sampling::plain; }
+    // Through a thin wall by the normals of reflections.
+    bool by_normal() const {
+        return base_.sampling == MaterialModel::Sampling::plain || (transmits() && !media_.body);
+    }
     bool transmits() const { return p_.transmission > 0 && p_.metal < 1; }
 
     // --- Above the surface ---
@@ -445,30 +489,64 @@ class MaterialView {
         // Of what a smooth interface lets in rounding leaves a part of 1.
         const R unlit =
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
-        value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition();
+        value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition() +
+                          (by_normal() ? (1 - p_.metal) * mirror_pdf * media_.rounding(cosine) : R(0));
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const R passing = part(wi, height_i);
         const R mirror = mirrored(base_, h, wi);
         const R lets_in = 1 - media_.reflectance(wo_.z), lets_out = 1 - media_.reflectance(wi.z);
+        const DiffuseUnder<R> paint(media_, p_.ior);
         for (int c = 0; c < 3; ++c) {
             const R scale = passing * p_.metal * p_.tint[c] * mirror, rest = passing * (1 - p_.metal);
-            const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x); };
+            const R colour = media_.colour[c];
+            const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x, colour); };
             const R white = rest * (1 - p_.transmission) * wi.z / pi<R>();
             const auto [beyond, size] = beyond_lambert(p_.albedo[c], wi);
-            const R under = white * (diffuse_under(p_.albedo[c], p_.ior) + beyond);
+            const R under = white * (paint(p_.albedo[c]) + beyond);
             const R diffuse = under * lets_in * lets_out;
             value.f[c] = scale * reflectance(c, cosine) + dielectric(cosine) + diffuse;
             value.slope[c] = scale * reflectance_slope(c, cosine) + by_cosine(dielectric, cosine) * cosine +
                              value.f[c] / height_i +
                              under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z)) +
-                             white * size * lets_in * lets_out;
+                             white * size * lets_in * lets_out +
+                             rest * mirror * media_.rounding(cosine, colour) + diffuse * colour_slope();
         }
         return value;
     }
 
-    // --- Below it, where only a refraction leads ---
+    // --- Below it ---
+
+    // Through a wall without thickness: a reflection turned to the other side.
+    MaterialValue<R> straight(const Vec3<R>& wi) const {
+        MaterialValue<R> value;
+        const Vec3<R> raised{wi.x, wi.y, -wi.z}, h = half(raised);
+        value.exponent = exponent(h);
+        const R cosine = (dot(wo_, h) + dot(raised, h)) / 2, seen = facets_pdf(base_, raised);
+        const auto pdf = [&](const R& c) { return odds(c).second * seen; };
+        value.pdf = pdf(cosine);
+        const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
+        // Next to a facet that is seen from its edge 1 - F has few digits.
+        const R edge = 1 / cosine;
+        value.pdf_slope =
+            by_cosine(pdf, cosine) * cosine + value.pdf * (1 + edge + unlit) + seen * media_.rounding(cosine);
+        const R height_o = dot(wo_, ng_), height_i = -dot(wi, ng_);
+        value.settled = settled(base_, raised, height_o, height_i) && !opposite(raised);
+        if (!(wo_.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
+        const R whole =
+            part(raised, height_i) * (1 - p_.metal) * p_.transmission * mirrored(base_, h, raised);
+        const auto light = [&](const R& c) { return whole * (1 - media_.reflectance(c)); };
+        for (int c = 0; c < 3; ++c) {
+            value.f[c] = p_.transmittance[c] * light(cosine);
+            value.slope[c] =
+                p_.transmittance[c] * (by_cosine(light, cosine) * cosine + whole * media_.rounding(cosine)) +
+                value.f[c] * (1 + edge + 1 / height_i);
+        }
+        return value;
+    }
+
+    // Where only a refraction leads.
 
     MaterialValue<R> refracted(const Vec3<R>& wi) const {
         MaterialValue<R> value;
@@ -490,7 +568,8 @@ class MaterialView {
         // Twice the roundings of a reflection: of its density, and of the cosines with the facet.
         const R edge = 1 / cos_o + 1 / cos_i;
         const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
-        value.pdf_slope = by_cosine(pdf, cos_o) + value.pdf * (1 + edge + choice_condition() + unlit);
+        value.pdf_slope = by_cosine(pdf, cos_o) + value.pdf * (1 + edge + choice_condition() + unlit) +
+                          (by_normal() ? seen * jacobian * media_.rounding(cos_o) : R(0));
         if (!(wo_.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const Vec3<R> raised{wi.x, wi.y, -wi.z};
         const R facets = ggx ? crossed<Ggx>(h, raised) : crossed<Beckmann>(h, raised);
@@ -503,16 +582,15 @@ class MaterialView {
         for (int c = 0; c < 3; ++c) {
             value.f[c] = p_.transmittance[c] * light(cos_o);
             value.slope[c] =
-                p_.transmittance[c] * by_cosine(light, cos_o) + value.f[c] * (1 + edge + 1 / height_i);
+                p_.transmittance[c] * (by_cosine(light, cos_o) + whole * media_.rounding(cos_o)) +
+                value.f[c] * (1 + edge + 1 / height_i);
         }
         return value;
     }
 
     // --- Which lobe ---
 
-    R diffuse_share() const {
-        return (1 - p_.metal) * (1 - p_.transmission) * (1 - media_.reflectance(wo_.z));
-    }
+    R diffuse_share() const { return (1 - p_.metal) * (1 - p_.transmission) * (1 - media_.chance(wo_.z)); }
     // Of a reflection by the dielectric and of a refraction, for facets of this cosine.
     std::pair<R, R> odds(const R& cosine) const {
         const R f =
@@ -529,7 +607,8 @@ class MaterialView {
         if (by_normal()) return R(0);
         const auto chosen = [&](const R& c) { return media_.expected(c, p_.alpha_x, p_.alpha_y); };
         const R f = chosen(mean_cosine_);
-        return f > 0 ? R((by_cosine(chosen, mean_cosine_) * mean_cosine_ + f) * (1 / f + 1 / (1 - f))) : R(0);
+        const R moved = by_cosine(chosen, mean_cosine_) * mean_cosine_ + f;
+        return (f > 0 ? moved / f : R(0)) + (f < 1 ? moved / (1 - f) : R(0));
     }
     template <class F>
     static R by_cosine(const F& value, const R& cosine) {
@@ -552,7 +631,14 @@ class MaterialView {
     // alike next to total reflection.
     R smooth_slope(const R& cosine) const {
         const auto reflectance = [&](const R& c) { return media_.reflectance(c); };
-        return cosine > 0 ? R(1 + 2 * by_cosine(reflectance, cosine) * cosine) : R(1);
+        const R own = 1 + media_.rounding(cosine);
+        return cosine > 0 ? R(own + 2 * by_cosine(reflectance, cosine) * cosine) : own;
+    }
+    // Of what is not reflected of diffuse light, in (colour - 1) F0 / (1 - F0).
+    R colour_slope() const {
+        const R upright = media_.upright(), colour = media_.brightest(),
+                moved = std::min<R>((colour - 1) * upright / (1 - upright), 1);
+        return moved < 1 ? R(std::abs(moved) / (1 - moved)) : R(0);
     }
 
     R exponent(const Vec3<R>& h) const { return exponent(h, base_); }

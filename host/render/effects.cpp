@@ -143,14 +143,21 @@ std::string layered(const Surveyed& s) {
             return there(s.scene.dressings[i].factors) && some_below_white(range, {channel});
         });
     };
-    return first_of({in(Slot::transmission, 0, [](const GltfMaterial& m) { return m.transmission > 0; }),
-                     in(Slot::coat, 0, [](const GltfMaterial& m) { return m.clearcoat > 0; }),
-                     in(Slot::coat_roughness, 1,
-                        [](const GltfMaterial& m) { return m.clearcoat > 0 && m.clearcoat_roughness > 0; }),
-                     // White stands for a direction, too.
-                     materials_with(s, Slot::anisotropy, [&](std::size_t i, const TexelRange& range) {
-                         return s.scene.dressings[i].factors.anisotropy > 0 && range.most[2] > 0;
-                     })});
+    return first_of(
+        {in(Slot::transmission, 0, [](const GltfMaterial& m) { return m.transmission > 0; }),
+         in(Slot::coat, 0, [](const GltfMaterial& m) { return m.clearcoat > 0; }),
+         in(Slot::coat_roughness, 1,
+            [](const GltfMaterial& m) { return m.clearcoat > 0 && m.clearcoat_roughness > 0; }),
+         in(Slot::specular, 3, [](const GltfMaterial& m) { return m.specular > 0; }),
+         materials_with(
+             s, Slot::specular_colour,
+             [&](std::size_t i, const TexelRange& range) {
+                 return s.scene.dressings[i].factors.specular > 0 && some_below_white(range, {0, 1, 2});
+             }),
+         // White stands for a direction, too.
+         materials_with(s, Slot::anisotropy, [&](std::size_t i, const TexelRange& range) {
+             return s.scene.dressings[i].factors.anisotropy > 0 && range.most[2] > 0;
+         })});
 }
 
 std::string emission_textured(const Surveyed& s) {
@@ -198,10 +205,21 @@ const std::map<std::string, std::function<std::string(const Surveyed&)>>& caller
                         (transmits(m) && m.transmittance != Vec{1, 1, 1});
              });
          }},
+        {"specular",
+         [](const Surveyed& s) {
+             return materials_that(s, [](const Material& m) {
+                 return dielectric(m) && (m.specular != 1 || m.specular_colour != Vec{1, 1, 1});
+             });
+         }},
+        {"thin_walled",
+         [](const Surveyed& s) {
+             return materials_that(s, [](const Material& m) { return transmits(m) && m.thin_walled; });
+         }},
         {"absorption",
          [](const Surveyed& s) {
-             return materials_that(s,
-                                   [](const Material& m) { return transmits(m) && m.absorption != Vec{}; });
+             return materials_that(s, [](const Material& m) {
+                 return transmits(m) && !m.thin_walled && m.absorption != Vec{};
+             });
          }},
         {"dispersion",
          [](const Surveyed& s) {

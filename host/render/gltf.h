@@ -17,6 +17,7 @@ struct GltfMaterial {
     Vec emissive{};
     float emissive_strength = 1;
     float ior = 1.5f, transmission = 0, dispersion = 0;
+    bool thin_walled = false;  // without a KHR_materials_volume of some thickness
     Vec attenuation_colour{1, 1, 1};
     float attenuation_distance = std::numeric_limits<float>::infinity();
     float specular = 1;
@@ -27,12 +28,9 @@ struct GltfMaterial {
     Alpha alpha = Alpha::opaque;
     float opacity = 1, alpha_cutoff = 0.5f;
     bool unlit = false, double_sided = false;
-    bool thin_walled = false;  // what transmits has no inside: KHR_materials_transmission without a thickness
 };
 
-// alpha is the square of a roughness. What is not exact: a specular factor and colour count by the reflectance at normal incidence
-// of the brightest channel, as another index, so that grazing light is reflected all the same; on a surface that transmits, where
-// the index bends light, they do not count. An ior of 0, which glTF has for a reflectance of 1, is the largest index.
+// alpha is the square of a roughness. An ior of 0, which glTF has for a reflectance of 1, is the largest index.
 Material material_of(const GltfMaterial& gltf);
 
 }  // namespace vndf::render

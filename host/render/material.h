@@ -17,8 +17,11 @@ struct Material {
     Vec tint{1, 1, 1}, albedo{};
     float ior = 1, transmission = 0;  // of what is not metal
     Vec transmittance{1, 1, 1};
-    float dispersion = 0;  // 20 over Abbe's number
-    Vec absorption{};      // by the body behind, in a unit of length
+    float specular = 1;  // how strong its interface reflects, and a factor at normal incidence
+    Vec specular_colour{1, 1, 1};
+    bool thin_walled = false;  // what transmits is a wall without thickness
+    float dispersion = 0;      // 20 over Abbe's number
+    Vec absorption{};          // by the body behind, in a unit of length
     float diffuse_roughness = 0;
     float coat = 0, coat_alpha = 0.01f;  // a layer of index 1.5 over all
     Vec emission{};                      // radiance, on both sides

@@ -110,7 +110,9 @@ std::vector<float> material_table(const Scene& scene) {
         row.insert(row.end(), m.transmittance.begin(), m.transmittance.end());
         row.push_back(dielectric(m) ? m.dispersion : 0);
         row.insert(row.end(), m.absorption.begin(), m.absorption.end());
-        row.insert(row.end(), {m.diffuse_roughness, m.coat, m.coat_alpha});
+        row.insert(row.end(), {m.diffuse_roughness, m.coat, m.coat_alpha, m.specular});
+        row.insert(row.end(), m.specular_colour.begin(), m.specular_colour.end());
+        row.push_back(m.thin_walled ? 1.0f : 0.0f);
         row.insert(row.end(), m.emission.begin(), m.emission.end());
         return row;
     });

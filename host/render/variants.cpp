@@ -65,6 +65,9 @@ std::vector<Material> variants(const Scene& scene, const TexelRanges& ranges, st
     });
     spread(Slot::transmission, [](Material& m, const Texel& t) { m.transmission *= t[0]; });
     spread(Slot::coat, [](Material& m, const Texel& t) { m.coat *= t[0]; });
+    spread(Slot::specular, [](Material& m, const Texel& t) { m.specular *= t[3]; });
+    spread(Slot::specular_colour,
+           [](Material& m, const Texel& t) { m.specular_colour = scaled(m.specular_colour, t); });
     spread(Slot::base_colour, [](Material& m, const Texel& t) {
         m.first = scaled(m.first, t);
         m.albedo = scaled(m.albedo, t);

@@ -52,6 +52,18 @@
 #else
 #define VNDF_BSDF_LOAD_TRANSMITTANCE
 #endif
+#if VNDF_DIELECTRIC && VNDF_SPECULAR
+#define VNDF_BSDF_LOAD_SPECULAR  \
+    b.specular = in_specular[i]; \
+    VNDF_BSDF_LOAD_RGB(specular_colour, specular_colour)
+#else
+#define VNDF_BSDF_LOAD_SPECULAR
+#endif
+#if VNDF_DIELECTRIC && VNDF_THIN_WALLED
+#define VNDF_BSDF_LOAD_THIN_WALLED b.thin_walled = in_thin_walled[i] != VNDF_R(0.0);
+#else
+#define VNDF_BSDF_LOAD_THIN_WALLED
+#endif
 #if VNDF_DIELECTRIC && VNDF_DISPERSION
 #define VNDF_BSDF_LOAD_DISPERSION    \
     b.dispersion = in_dispersion[i]; \
@@ -106,7 +118,7 @@
 #define VNDF_BSDF_LOAD                                                                                       \
     VNDF_BSDF_LOAD_ALPHA_X VNDF_BSDF_LOAD_ALPHA_Y VNDF_BSDF_LOAD_FRESNEL VNDF_BSDF_LOAD_TINT                 \
         VNDF_BSDF_LOAD_ALBEDO VNDF_BSDF_LOAD_TRANSMITTANCE VNDF_BSDF_LOAD_METAL VNDF_BSDF_LOAD_IOR           \
-            VNDF_BSDF_LOAD_DISPERSION VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_ROUGHNESS VNDF_BSDF_LOAD_COAT \
+            VNDF_BSDF_LOAD_SPECULAR VNDF_BSDF_LOAD_THIN_WALLED VNDF_BSDF_LOAD_DISPERSION VNDF_BSDF_LOAD_ABSORPTION VNDF_BSDF_LOAD_ROUGHNESS VNDF_BSDF_LOAD_COAT \
                 VNDF_BSDF_LOAD_NG
 
 // The item of a work-item; bench goes through few groups of them again and again, which stay in cache.

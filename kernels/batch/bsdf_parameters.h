@@ -11,6 +11,7 @@
     VNDF_BSDF_RGB(S, first) VNDF_BSDF_RGB(S, second) VNDF_BSDF_RGB(S, tint)                 \
     VNDF_BSDF_RGB(S, albedo)                                                                \
     S(metal) S(ior) S(transmission) VNDF_BSDF_RGB(S, transmittance)                         \
+    S(specular) VNDF_BSDF_RGB(S, specular_colour) S(thin_walled)                            \
     S(dispersion) S(channel) VNDF_BSDF_RGB(S, absorption)                                   \
     S(diffuse_roughness) S(coat) S(coat_alpha)                                              \
     VNDF_BSDF_XYZ(S, ng)

@@ -108,6 +108,10 @@ VNDF_FN struct vndf_bsdf vndf_render_dressed(struct vndf_bsdf b, struct vndf_ren
 #if VNDF_DIELECTRIC && VNDF_LAMBERT
     b.transmission *= vndf_render_looks_like(look, VNDF_LOOK_TRANSMISSION);
 #endif
+#if VNDF_DIELECTRIC && VNDF_SPECULAR
+    b.specular *= vndf_render_looks_like(look, VNDF_LOOK_SPECULAR);
+    b.specular_colour = vndf_render_times(b.specular_colour, look, VNDF_LOOK_SPECULAR_COLOUR);
+#endif
 #if VNDF_COAT
     b.coat *= vndf_render_looks_like(look, VNDF_LOOK_COAT);
     b.coat_alpha = vndf_render_looks_like(look, VNDF_LOOK_COAT_ALPHA);
@@ -156,6 +160,13 @@ VNDF_FN struct vndf_bsdf vndf_render_bsdf_of(VNDF_RENDER_FROM(float) materials, 
 #endif
 #if VNDF_TINT
     b.transmittance = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_TRANSMITTANCE);
+#endif
+#if VNDF_SPECULAR
+    b.specular = materials[VNDF_MATERIAL_SPECULAR * row.count + row.number];
+    b.specular_colour = vndf_render_rgb_at(materials, row, VNDF_MATERIAL_SPECULAR_COLOUR);
+#endif
+#if VNDF_THIN_WALLED
+    b.thin_walled = materials[VNDF_MATERIAL_THIN_WALLED * row.count + row.number] != 0.0f;
 #endif
 #if VNDF_DISPERSION
     b.dispersion = materials[VNDF_MATERIAL_DISPERSION * row.count + row.number];

@@ -123,8 +123,11 @@
 #define VNDF_MATERIAL_DIFFUSE_ROUGHNESS 24
 #define VNDF_MATERIAL_COAT 25
 #define VNDF_MATERIAL_COAT_ALPHA 26
-#define VNDF_MATERIAL_EMISSION 27
-#define VNDF_MATERIAL_PLANES 30
+#define VNDF_MATERIAL_SPECULAR 27
+#define VNDF_MATERIAL_SPECULAR_COLOUR 28
+#define VNDF_MATERIAL_THIN_WALLED 31
+#define VNDF_MATERIAL_EMISSION 32
+#define VNDF_MATERIAL_PLANES 35
 
 // What textures make of a material: for each slot the texture, or -1, the set of coordinates and their transform; and the factors
 // that a texture's value goes into before the material's numbers are made.

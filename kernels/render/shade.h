@@ -172,7 +172,12 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
 #if VNDF_ABSORPTION
     const float body = path[VNDF_PATH_BODY * stride + i],
                 entered = turn > 0.0f ? (float)(int)material[i] + 1.0f : 0.0f;
-    path[VNDF_PATH_BODY * stride + i] = crosses ? entered : body;
+#if VNDF_THIN_WALLED
+    const int enters = crosses && !bsdf.thin_walled;
+#else
+    const int enters = crosses;
+#endif
+    path[VNDF_PATH_BODY * stride + i] = enters ? entered : body;
 #endif
     path[VNDF_PATH_PDF * stride + i] =
         crosses ? 1e30f : vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);

@@ -14,6 +14,11 @@
 // side of both normals; the rest meets a Lambertian surface. A material with transmission > 0 bounds a body: seen from behind
 // its index is turned over. Without it, behind is as in front.
 //
+// So it is of a material that is thin_walled (VNDF_THIN_WALLED): a wall without thickness, as glTF has it, reflects as the front of
+// a body does, and what gets in goes straight through, a reflection turned to the other side: rough walls blur what is seen through
+// them, with any index, and nothing is bent. Light between the sides of the wall does not count: a smooth one reflects F and lets
+// 1 - F through, of a pane it would be 2 F / (1 + F) and the rest. A coat lies on both sides, and counts once.
+//
 // With VNDF_DISPERSION the index is that of one channel. A path takes one of its channels, at the first surface with a dispersion,
 // with a random number of its own and a probability in proportion to what it carries in each, and carries on the sum in that one: what
 // was chosen once is chosen for certain from there on, and nothing is biased. (A mix of the channels' densities, hero wavelengths,
@@ -62,7 +67,7 @@ struct vndf_impl_bsdf_lobes {
 // Whether light crosses the surface.
 VNDF_FN int vndf_impl_bsdf_crosses(struct vndf_impl_bsdf_lobes l) {
 #if VNDF_DIELECTRIC
-    return l.specular.facet.crosses;
+    return l.specular.crosses;
 #else
     (void)l;
     return 0;
@@ -86,7 +91,11 @@ VNDF_FN struct vndf_impl_bsdf_lobes vndf_impl_bsdf_lobes_of(struct vndf_impl_bsd
 #endif
     l.coat = vndf_impl_bsdf_coat(v, i, vndf_impl_bsdf_crosses(l), last);
     l.base = VNDF_R(1.0) - v.coat.share;
-    l.let_through = vndf_impl_coat_lets_through(v.coat, i, vndf_impl_bsdf_crosses(l), l.coat.weight.b);
+    int leaves = vndf_impl_bsdf_crosses(l);
+#if VNDF_DIELECTRIC
+    leaves = leaves && v.media.body;
+#endif
+    l.let_through = vndf_impl_coat_lets_through(v.coat, i, leaves, l.coat.weight.b);
 #endif
     return l;
 }
@@ -218,8 +227,7 @@ VNDF_FN int vndf_impl_bsdf_lost(struct vndf_impl_bsdf_view v, struct vndf_impl_b
                                 struct vndf_impl_drawn d) {
 #if VNDF_DIELECTRIC
     int through = d.lobe == VNDF_BSDF_TRANSMISSION;
-    return v.media.transmits &&
-           (l.specular.facet.crosses != through || (through && !(d.w.pdf > VNDF_R(0.0))));
+    return v.media.transmits && (l.specular.crosses != through || (through && !(d.w.pdf > VNDF_R(0.0))));
 #else
     (void)v;
     (void)l;

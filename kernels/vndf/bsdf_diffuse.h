@@ -17,10 +17,10 @@ VNDF_BEGIN
 
 #if VNDF_DIELECTRIC
 
-// What gets through a smooth interface: nothing at grazing incidence, whatever rounding leaves there of 1 - F.
-VNDF_FN VNDF_REAL vndf_impl_bsdf_lets_in(VNDF_REAL cosine, VNDF_REAL eta) {
-    VNDF_REAL part = VNDF_R(1.0) - vndf_fresnel_dielectric(cosine, eta);
-    return cosine > VNDF_R(0.0) || eta == VNDF_R(1.0) ? part : VNDF_R(0.0);
+// The reflectance of a smooth interface by its index: all at grazing incidence, whatever rounding leaves there.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_smooth_reflectance(VNDF_REAL cosine, VNDF_REAL eta) {
+    VNDF_REAL f = vndf_fresnel_dielectric(cosine, eta);
+    return cosine > VNDF_R(0.0) || eta == VNDF_R(1.0) ? f : VNDF_R(1.0);
 }
 
 // The light that gets in at wo leaves diffusely, in part; what is reflected inwards meets the surface again, and so on. White
@@ -34,17 +34,34 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
     VNDF_REAL ior = vndf_impl_bsdf_index(v.b), dense = ior < VNDF_R(1.0) ? VNDF_R(1.0) / ior : ior,
               x = dense - VNDF_R(1.0);
     VNDF_REAL q = x * VNDF_FMA(x, VNDF_FMA(x, VNDF_R(0.22263203), VNDF_R(1.27565832)), VNDF_R(2.267723));
-    VNDF_REAL lets_in = vndf_impl_bsdf_lets_in(v.o.z, n.eta), lets_out = vndf_impl_bsdf_lets_in(i.z, n.eta);
-    VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / (dense * dense));
+    VNDF_REAL f_o = vndf_impl_bsdf_smooth_reflectance(v.o.z, n.eta),
+              lets_in = vndf_impl_interface_passes(n, vndf_impl_interface_likely(n), f_o);
+    VNDF_REAL f_i = vndf_impl_bsdf_smooth_reflectance(i.z, n.eta),
+              lets_out = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f_i);
+    VNDF_REAL again = q, out = dense * dense, once = lets_out, bends = dense;
+#if VNDF_SPECULAR
+    struct vndf_impl_gloss_inwards inwards = vndf_impl_gloss_inwards_of(n.gloss, q, dense);
+    again = inwards.again;
+    out = inwards.out;
+    // More gets in than it is drawn for under a dark colour.
+    lets_out *=
+        vndf_impl_interface_passes(n, n.gloss.most, f_o) / (lets_in > VNDF_R(0.0) ? lets_in : VNDF_R(1.0));
+    once = lets_out * inwards.kept;
+    bends = VNDF_FMA(n.gloss.strength, x, VNDF_R(1.0));
+#endif
+    VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / out);
     d.share = (VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b)) * (VNDF_R(1.0) - n.transmission) * lets_in;
-    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, q, VNDF_R(1.0));
-    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, q, VNDF_R(1.0));
-    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, q, VNDF_R(1.0));
+    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, again, VNDF_R(1.0));
+    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, again, VNDF_R(1.0));
+    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, again, VNDF_R(1.0));
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
 #if VNDF_ROUGH_DIFFUSE
     struct vndf_impl_rough_diffuse rough =
-        vndf_impl_rough_diffuse_under(v.o, i, dense, v.b.diffuse_roughness);
-    d.weight = vndf_impl_rgb_rougher(d.weight, rough, lets_out / (dense * dense), v.b.albedo);
+        vndf_impl_rough_diffuse_under(v.o, i, bends, v.b.diffuse_roughness);
+    d.weight = vndf_impl_rgb_rougher(d.weight, rough, once / out, v.b.albedo);
+#else
+    (void)once;
+    (void)bends;
 #endif
     d.pdf = vndf_lambert_pdf_wi(i);
     return d;

@@ -49,6 +49,15 @@ struct vndf_bsdf {
 #if VNDF_TINT
     struct vndf_rgb transmittance;  // a factor on what goes through
 #endif
+#if VNDF_SPECULAR
+    // How strong the interface reflects, in [0, 1], and a factor >= 0 on its reflectance at normal incidence for each channel
+    // (bsdf_gloss.h).
+    VNDF_REAL specular;
+    struct vndf_rgb specular_colour;
+#endif
+#if VNDF_THIN_WALLED
+    int thin_walled;  // not 0: what transmits is a wall without thickness and bounds no body
+#endif
 #if VNDF_DISPERSION
     VNDF_REAL dispersion;  // 20 over Abbe's number (medium.h); 0: one index for all light
     int channel;           // whose index counts: 0, red, 1, green, or 2, blue

@@ -12,7 +12,7 @@ VNDF_BEGIN
 struct vndf_impl_specular {
     struct vndf_impl_bsdf_lobe lobe;
 #if VNDF_DIELECTRIC
-    struct vndf_impl_facing facet;
+    int crosses;  // the surface
 #endif
 };
 
@@ -21,7 +21,12 @@ struct vndf_impl_specular {
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_transmitted(struct vndf_impl_bsdf_view v, VNDF_REAL part) {
 #if VNDF_CHOSEN(VNDF_TRANSPORT, radiance)
     // A beam that is bent into a narrower cone is brighter for it.
-    part /= v.media.eta * v.media.eta;
+#if VNDF_THIN_WALLED
+    VNDF_REAL eta = v.media.body ? v.media.eta : VNDF_R(1.0);
+#else
+    VNDF_REAL eta = v.media.eta;
+#endif
+    part /= eta * eta;
 #endif
 #if VNDF_TINT
     return vndf_impl_rgb_scaled(v.b.transmittance, part);
@@ -30,33 +35,58 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_transmitted(struct vndf_impl_bsdf_view v,
 #endif
 }
 
+// What the interface reflects of each channel, f by its index.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_mirrored(struct vndf_impl_interface n, VNDF_REAL f) {
+#if VNDF_SPECULAR
+    VNDF_REAL red = vndf_impl_interface_reflects(n, n.gloss.excess.r, f);
+    VNDF_REAL green = vndf_impl_interface_reflects(n, vndf_impl_next_channel(n.gloss.excess.g, red), f);
+    VNDF_REAL blue = vndf_impl_interface_reflects(n, vndf_impl_next_channel(n.gloss.excess.b, green), f);
+    return vndf_impl_rgb(red, green, blue);
+#else
+    (void)n;
+    return vndf_impl_rgb(f, f, f);
+#endif
+}
+
 VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_specular s;
     struct vndf_impl_interface n = v.media;
-    s.facet = vndf_impl_facing_of(v.o, i, n.eta, n.transmits && i.z < VNDF_R(0.0));
-    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), rest = VNDF_R(1.0) - metal;
-    VNDF_REAL f = vndf_fresnel_dielectric(s.facet.cos_o, n.eta), passed = (VNDF_R(1.0) - f) * n.transmission;
-    struct vndf_impl_odds odds = vndf_impl_odds_of(n, f);
-    VNDF_REAL share = s.facet.crosses ? odds.refracted : metal + odds.reflected;
-    VNDF_REAL rcp = VNDF_R(1.0) / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
     VNDF_REAL3 raised = VNDF_MAKE3(i.x, i.y, vndf_impl_abs(i.z));
+    s.crosses = n.transmits && i.z < VNDF_R(0.0);
+#if VNDF_THIN_WALLED
+    int bends = s.crosses && n.body;
+    VNDF_REAL3 w = VNDF_MAKE3(i.x, i.y, s.crosses && !n.body ? raised.z : i.z);
+#else
+    int bends = s.crosses;
+    VNDF_REAL3 w = i;
+#endif
+    struct vndf_impl_facing facet = vndf_impl_facing_of(v.o, w, n.eta, bends);
+    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), rest = VNDF_R(1.0) - metal;
+    VNDF_REAL f = vndf_fresnel_dielectric(facet.cos_o, n.eta);
+    VNDF_REAL passed = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f) * n.transmission;
+    struct vndf_impl_odds odds = vndf_impl_odds_of(n, f);
+    VNDF_REAL share = s.crosses ? odds.refracted : metal + odds.reflected;
+    VNDF_REAL rcp = VNDF_R(1.0) / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
+    VNDF_REAL mirrored = vndf_impl_facets_weight(v.facets, raised);
     // Straight through is not masked.
     VNDF_REAL masked = n.eta == VNDF_R(1.0) ? VNDF_R(1.0) : vndf_impl_facets_shadowing(v.facets, raised);
+#if VNDF_THIN_WALLED
+    masked = n.body ? masked : mirrored;
+#endif
     struct vndf_rgb through = vndf_impl_bsdf_transmitted(v, rest * passed * rcp * masked);
-    VNDF_REAL mirrored = vndf_impl_facets_weight(v.facets, raised), other = rest * f * rcp;
+    struct vndf_rgb back = vndf_impl_bsdf_mirrored(n, f);
+    back = vndf_impl_rgb_scaled(vndf_impl_rgb_scaled(back, rest), rcp);
 #if VNDF_CONDUCTOR
     VNDF_REAL own = share == metal ? VNDF_R(1.0) : metal * rcp;
-    struct vndf_rgb back = vndf_impl_bsdf_reflectance(v.b, s.facet.cos_o);
-    back = vndf_impl_rgb(VNDF_FMA(own, back.r, other), VNDF_FMA(own, back.g, other),
-                         VNDF_FMA(own, back.b, other));
-#else
-    struct vndf_rgb back = vndf_impl_rgb(other, other, other);
+    struct vndf_rgb metals = vndf_impl_bsdf_reflectance(v.b, facet.cos_o);
+    back = vndf_impl_rgb(VNDF_FMA(own, metals.r, back.r), VNDF_FMA(own, metals.g, back.g),
+                         VNDF_FMA(own, metals.b, back.b));
 #endif
     back = vndf_impl_rgb_scaled(back, mirrored);
-    s.lobe.weight = vndf_impl_rgb(s.facet.crosses ? through.r : back.r, s.facet.crosses ? through.g : back.g,
-                                  s.facet.crosses ? through.b : back.b);
+    s.lobe.weight = vndf_impl_rgb(s.crosses ? through.r : back.r, s.crosses ? through.g : back.g,
+                                  s.crosses ? through.b : back.b);
     s.lobe.share = share;
-    s.lobe.pdf = vndf_impl_facets_either_pdf(v.facets, s.facet, i);
+    s.lobe.pdf = vndf_impl_facets_either_pdf(v.facets, facet, w);
     return s;
 }
 
@@ -113,13 +143,29 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bs
     VNDF_REAL metal = vndf_impl_bsdf_metal(v.b);
     // Before the normal, where that does not decide.
     int early = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, VNDF_R(0.0)), metal, u_lobe);
-    struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, early != VNDF_BSDF_TRANSMISSION);
-    VNDF_REAL f = vndf_fresnel_dielectric(
-        VNDF_FMA(v.o.x, both.normal.x, VNDF_FMA(v.o.y, both.normal.y, v.o.z * both.normal.z)), n.eta);
+    int mirrors = early != VNDF_BSDF_TRANSMISSION;
+#if VNDF_THIN_WALLED
+    int thin = n.transmits && !n.body;
+    mirrors = mirrors || thin;
+#endif
+    struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, mirrors);
+    VNDF_REAL cosine = VNDF_FMA(v.o.x, both.normal.x, VNDF_FMA(v.o.y, both.normal.y, v.o.z * both.normal.z));
+#if VNDF_THIN_WALLED
+    VNDF_REAL between =
+        vndf_impl_half_cosine(v.o, VNDF_MAKE3(both.mirrored.x, both.mirrored.y, both.mirrored.z));
+    cosine = thin ? between : cosine;
+#endif
+    VNDF_REAL f = vndf_fresnel_dielectric(cosine, n.eta);
     int late = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, f), metal, u_lobe);
     d.lobe = n.by_normal ? late : early;
     struct vndf_impl_sample refracted = vndf_impl_refracted(v.o, both.normal, n.eta);
     int crosses = d.lobe == VNDF_BSDF_TRANSMISSION;
+#if VNDF_THIN_WALLED
+    refracted.x = thin ? both.mirrored.x : refracted.x;
+    refracted.y = thin ? both.mirrored.y : refracted.y;
+    refracted.z = thin ? -both.mirrored.z : refracted.z;
+    refracted.pdf = thin ? both.mirrored.pdf : refracted.pdf;
+#endif
     d.w.x = crosses ? refracted.x : both.mirrored.x;
     d.w.y = crosses ? refracted.y : both.mirrored.y;
     d.w.z = crosses ? refracted.z : both.mirrored.z;

@@ -10,6 +10,9 @@
 #if VNDF_DIELECTRIC
 #include "bsdf_dielectric.h"
 #endif
+#if VNDF_DIELECTRIC && VNDF_SPECULAR
+#include "bsdf_gloss.h"
+#endif
 #if VNDF_DIELECTRIC && (VNDF_ABSORPTION || VNDF_DISPERSION)
 #include "medium.h"
 #endif
@@ -28,9 +31,13 @@ VNDF_BEGIN
 struct vndf_impl_interface {
     VNDF_REAL eta;           // behind over before, seen from wo
     VNDF_REAL transmission;  // of what gets in
-    int transmits;
-    VNDF_REAL specular;  // the probability of its own two lobes: all but the diffuse one's
+    int transmits, body;     // body: and bends what goes through
+    VNDF_REAL specular;      // the probability of its own two lobes: all but the diffuse one's
     int by_normal;  // the lobe is chosen by the reflectance of the normal that was drawn, or before by the expected one
+    int plain;  // visible normals, whatever VNDF_SAMPLING
+#if VNDF_SPECULAR
+    struct vndf_impl_gloss gloss;
+#endif
 #if !VNDF_IMPL_CHOICE_BY_NORMAL
     VNDF_REAL expected;
 #endif
@@ -45,6 +52,46 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
     return vndf_impl_min(vndf_impl_max(b.ior, VNDF_R(1e-3)), VNDF_R(1e3));
 #endif
 }
+// Of a facet, or of the surface where it is smooth, that reflects f by its index: the parts that its brightest channel reflects, or
+// one with this excess, and that get in.
+#if VNDF_SPECULAR
+VNDF_FN VNDF_REAL vndf_impl_interface_reflects(struct vndf_impl_interface n, VNDF_REAL excess, VNDF_REAL f) {
+    VNDF_REAL part = vndf_impl_gloss_reflects(n.gloss, excess, f);
+    return n.plain && f >= VNDF_R(1.0) ? f : part;
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_passes(struct vndf_impl_interface n, VNDF_REAL excess, VNDF_REAL f) {
+    VNDF_REAL part = vndf_impl_gloss_passes(n.gloss, excess, f);
+    return n.plain && f >= VNDF_R(1.0) ? VNDF_R(0.0) : part;
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_most(struct vndf_impl_interface n) {
+    return n.gloss.most;
+}
+// For the probability of a reflection where one facet stands for all: a dark colour makes it no less likely, since the others
+// reflect all the same.
+VNDF_FN VNDF_REAL vndf_impl_interface_likely(struct vndf_impl_interface n) {
+    return vndf_impl_max(n.gloss.most, VNDF_R(0.0));
+}
+#else
+VNDF_FN VNDF_REAL vndf_impl_interface_reflects(struct vndf_impl_interface n, VNDF_REAL excess, VNDF_REAL f) {
+    (void)n;
+    (void)excess;
+    return f;
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_passes(struct vndf_impl_interface n, VNDF_REAL excess, VNDF_REAL f) {
+    (void)n;
+    (void)excess;
+    return VNDF_R(1.0) - f;
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_most(struct vndf_impl_interface n) {
+    (void)n;
+    return VNDF_R(0.0);
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_likely(struct vndf_impl_interface n) {
+    (void)n;
+    return VNDF_R(0.0);
+}
+#endif
+
 VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct vndf_bsdf b, VNDF_REAL side) {
     struct vndf_impl_interface n;
     VNDF_REAL ior = vndf_impl_bsdf_index(b), metal = vndf_impl_bsdf_metal(b);
@@ -54,41 +101,60 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
     n.transmission = VNDF_R(1.0);
 #endif
     n.transmits = n.transmission > VNDF_R(0.0) && metal < VNDF_R(1.0);
-    n.eta = n.transmits && side < VNDF_R(0.0) ? VNDF_R(1.0) / ior : ior;
+#if VNDF_THIN_WALLED
+    n.body = n.transmits && !b.thin_walled;
+#else
+    n.body = n.transmits;
+#endif
+    n.eta = n.body && side < VNDF_R(0.0) ? VNDF_R(1.0) / ior : ior;
+    n.plain = n.body && n.eta < VNDF_R(1.0);
+#if VNDF_SPECULAR
+    n.gloss = vndf_impl_gloss_of(b.specular, b.specular_colour, ior);
+#endif
     n.specular = VNDF_R(1.0) - metal;
 #if VNDF_LAMBERT
-    n.specular *= VNDF_FMA(VNDF_R(1.0) - n.transmission, vndf_fresnel_dielectric(o.z, n.eta), n.transmission);
+    VNDF_REAL chance =
+        vndf_impl_interface_reflects(n, vndf_impl_interface_likely(n), vndf_fresnel_dielectric(o.z, n.eta));
+    n.specular *= VNDF_FMA(VNDF_R(1.0) - n.transmission, chance, n.transmission);
 #else
     (void)o;
 #endif
     // From the denser side many normals reflect all there is, and which do decides nearly everything: a choice before the normal
     // would leave the few that transmit, or reflect in part, samples that weigh much.
-    n.by_normal = VNDF_IMPL_CHOICE_BY_NORMAL || (n.transmits && n.eta < VNDF_R(1.0));
+    n.by_normal = VNDF_IMPL_CHOICE_BY_NORMAL || n.plain;
+#if VNDF_THIN_WALLED
+    // What goes through a thin wall is a reflection turned around, by the same normals.
+    n.by_normal = n.by_normal || (n.transmits && !n.body);
+#endif
 #if !VNDF_IMPL_CHOICE_BY_NORMAL
-    n.expected = vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta);
+    n.expected = vndf_impl_interface_reflects(
+        n, vndf_impl_interface_likely(n), vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta));
 #endif
     return n;
 }
 
-// The probabilities of a reflection by the dielectric, and of a refraction. reflectance: of the facet.
+// The probabilities of a reflection by the dielectric, and of a refraction. f: the facet's reflectance
+// by its index.
 struct vndf_impl_odds {
     VNDF_REAL reflected, refracted;
 };
-VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VNDF_REAL reflectance) {
+VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VNDF_REAL f) {
     struct vndf_impl_odds odds;
-#if VNDF_IMPL_CHOICE_BY_NORMAL
-    VNDF_REAL f = reflectance;
-#else
-    VNDF_REAL f = n.by_normal ? reflectance : n.expected;
+    VNDF_REAL most = vndf_impl_interface_most(n);
+    VNDF_REAL back = vndf_impl_interface_reflects(n, most, f), in = vndf_impl_interface_passes(n, most, f);
+#if !VNDF_IMPL_CHOICE_BY_NORMAL
+    back = n.by_normal ? back : n.expected;
+    in = n.by_normal ? in : VNDF_R(1.0) - n.expected;
 #endif
-    VNDF_REAL through = (VNDF_R(1.0) - f) * n.transmission;
+    VNDF_REAL through = in * n.transmission;
 #if VNDF_LAMBERT
-    // Of what is neither reflected nor transmitted nobody asks here.
-    VNDF_REAL sum = f + through, rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
-    f *= rcp;
+    // Of what is neither reflected nor transmitted nobody asks here. Where all is, rounding is left alone.
+    VNDF_REAL sum = n.transmission < VNDF_R(1.0) ? back + through : VNDF_R(1.0),
+              rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+    back *= rcp;
     through *= rcp;
 #endif
-    odds.reflected = n.specular * f;
+    odds.reflected = n.specular * back;
     odds.refracted = n.specular * through;
     return odds;
 }
@@ -122,14 +188,14 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
 #endif
 #if VNDF_DIELECTRIC
     v.media = vndf_impl_interface_of(v.o, b, v.side);
-    v.facets = vndf_impl_facets_plain(v.facets, v.media.by_normal);
+    v.facets = vndf_impl_facets_plain(v.facets, v.media.plain);
 #endif
 #if VNDF_IMPL_KULLA_CONTY
     v.multiple = vndf_impl_bsdf_kulla_conty(b, v.o);
 #endif
 #if VNDF_COAT
 #if VNDF_DIELECTRIC
-    int within = v.media.transmits && v.side < VNDF_R(0.0);
+    int within = v.media.body && v.side < VNDF_R(0.0);
 #else
     int within = 0;
 #endif
@@ -212,7 +278,7 @@ VNDF_FN struct vndf_impl_facets vndf_impl_bsdf_chosen_facets(struct vndf_impl_bs
     VNDF_REAL z = vndf_impl_facets_seen(v.coat.facets) >= VNDF_R(0.0) ? v.o.z : VNDF_R(1.0);
     struct vndf_impl_facets facets = vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y));
 #if VNDF_DIELECTRIC
-    facets = vndf_impl_facets_plain(facets, v.media.by_normal && !coated);
+    facets = vndf_impl_facets_plain(facets, v.media.plain && !coated);
 #endif
     return facets;
 #else

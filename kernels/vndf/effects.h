@@ -19,6 +19,8 @@
 // For every renderer, by what its scene holds (bench/effects.py counts what each costs):
 //   VNDF_CONDUCTOR       the rough conductor; 0: every material has metal = 0
 //   VNDF_DIELECTRIC      the rough dielectric; 0: every material with metal < 1 has ior = 1 and transmission = 0
+//   VNDF_SPECULAR        how strong the dielectric's interface reflects, and its colour; 0: both are 1 in every material
+//   VNDF_THIN_WALLED     walls without thickness, which light goes straight through; 0: every material that transmits bounds a body
 //   VNDF_LAMBERT         the diffuse lobe; 0: every material has metal = 1 or transmission = 1
 //   VNDF_ROUGH_DIFFUSE   the roughness of the diffuse lobe; 0: it is 0 in every material, which is Lambert's law
 //   VNDF_COAT            a rough dielectric layer over all; 0: coat = 0 in every material
@@ -86,6 +88,12 @@
 #else
 #define VNDF_DIELECTRIC 1
 #endif
+#endif
+#ifndef VNDF_SPECULAR
+#define VNDF_SPECULAR 1
+#endif
+#ifndef VNDF_THIN_WALLED
+#define VNDF_THIN_WALLED 1
 #endif
 #ifndef VNDF_LAMBERT
 #define VNDF_LAMBERT 1
@@ -166,6 +174,18 @@
 #error "clvndf: unknown VNDF_DIELECTRIC; 0 and 1 are allowed"
 #undef VNDF_DIELECTRIC
 #define VNDF_DIELECTRIC 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_SPECULAR) >= 1
+#else
+#error "clvndf: unknown VNDF_SPECULAR; 0 and 1 are allowed"
+#undef VNDF_SPECULAR
+#define VNDF_SPECULAR 1
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_THIN_WALLED) >= 1
+#else
+#error "clvndf: unknown VNDF_THIN_WALLED; 0 and 1 are allowed"
+#undef VNDF_THIN_WALLED
+#define VNDF_THIN_WALLED 1
 #endif
 #if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_LAMBERT) >= 1
 #else

@@ -151,7 +151,8 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
           "all,energy=kulla_conty,fresnel=conductor", "all,energy=kulla_conty,sampling=conic",
           "all,energy=kulla_conty,sampling=conic,fresnel=conductor",
           "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82", "lambert,rough_diffuse",
-          "lambert,coat", "conductor,coat", "dielectric,coat,ndf=beckmann"})
+          "lambert,coat", "conductor,coat", "dielectric,coat,ndf=beckmann", "dielectric,specular",
+          "dielectric,thin_walled,sampling=conic", "dielectric,lambert,specular,thin_walled,ndf=beckmann"})
         CHECK(not_vectorised_with(parse_effects(list)) == "");
 }
 

@@ -79,6 +79,7 @@ def faults(switches, code):
     for effect, marks in effects().items():
         on = switches.get(effect, 1)
         needs = {"ROUGH_DIFFUSE": switches.get("LAMBERT", 1), "ANISOTROPIC": specular, "TINT": conductor, "ABSORPTION": switches.get("DIELECTRIC", 1),
+                 "SPECULAR": switches.get("DIELECTRIC", 1), "THIN_WALLED": switches.get("DIELECTRIC", 1),
                  "DISPERSION": switches.get("DIELECTRIC", 1), "TERMINATOR": switches.get("SHADING_NORMAL", 1)}
         for word in marks:
             if word == "lambert" and conductor and switches["ENERGY"] == "kulla_conty":

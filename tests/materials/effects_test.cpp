@@ -79,6 +79,9 @@ class Inputs {
         material.push_back(has(off_, "DIELECTRIC") ? 1 : chance(.1) ? 1 : std::exp(any(-.7, 1.1)));
         material.push_back(has(off_, "DIELECTRIC") ? 0 : has(off_, "LAMBERT") ? 1 : part());
         for (int c = 0; c < 3; ++c) material.push_back(has(off_, "TINT") ? 1 : part());
+        for (int c = 0; c < 4; ++c)
+            material.push_back(has(off_, "SPECULAR") ? 1 : chance(.3) ? any(0, 8) : part());
+        material.push_back(has(off_, "THIN_WALLED") ? 0 : chance(.3));
         material.push_back(has(off_, "DISPERSION") ? 0 : part());
         material.push_back(std::floor(any(0, 3)));
         for (int c = 0; c < 3; ++c)

@@ -252,16 +252,50 @@ TEST_CASE("a material of glTF is the renderer's by the formulas of its extension
     CHECK(body.absorption[0] == Catch::Approx(std::log(2) / 2));
     CHECK(body.absorption[1] == 0);
     CHECK(body.absorption[2] == Catch::Approx(std::log(2)));
-    // Half of the reflectance at normal incidence, and none.
-    gltf.specular = 0.5f;
-    const float index = render::material_of(gltf).ior;
-    CHECK(std::pow((index - 1) / (index + 1), 2) == Catch::Approx(0.02));
-    gltf.specular = 0;
-    CHECK(render::material_of(gltf).ior == 1);
-    gltf.specular = 1, gltf.specular_colour = {1e6f, 1, 1};
+    gltf.specular = 0.5f, gltf.specular_colour = {3, 1, 0}, gltf.transmission = 1, gltf.thin_walled = true;
+    const render::Material pane = render::material_of(gltf);
+    CHECK((pane.specular == 0.5f && pane.specular_colour == gltf.specular_colour));
+    CHECK((pane.thin_walled && pane.transmission == 1 && pane.ior == 1.5f));
+    CHECK(pane.transmittance == gltf.base_colour);
+    gltf.ior = 0;
     CHECK(render::material_of(gltf).ior == 1000);
-    gltf.transmission = 1, gltf.specular = 0;
-    CHECK(render::material_of(gltf).ior == 1.5f);
+}
+
+TEST_CASE(
+    "a smooth interface reflects what glTF's specular and its colour say, and what gets in comes back from "
+    "white") {
+    const double theta = 0.7, rise = std::pow((1.5 - 1) / (1.5 + 1), 2.0), f = fresnel(std::cos(theta), 1.5);
+    render::Material paint = render::plastic({0, 0, 0}, 1e-3f);
+    paint.specular = 0.8f, paint.specular_colour = {0, 1, 12};
+    const auto found = means(rendered(floor_of(paint, theta), 32, 32, 64 * effort()).image());
+    for (int c = 0; c < 3; ++c) {
+        const double f0 = std::min(rise * paint.specular_colour[c], 1.0);
+        CAPTURE(c);
+        CHECK(found[c] ==
+              Catch::Approx(0.8 * (f0 + (1 - f0) * (f - rise) / (1 - rise))).epsilon(0).margin(2e-3));
+    }
+    paint.albedo = {1, 1, 1};
+    // All of the brightest channel.
+    const auto white = means(rendered(floor_of(paint, theta), 32, 32, 64 * effort()).image());
+    CHECK(white[2] == Catch::Approx(1).epsilon(0).margin(4e-3));
+}
+
+TEST_CASE("through a thin wall light goes straight, and it is in no body behind") {
+    render::Material pane = render::glass(1.5f, 1e-3f);
+    pane.thin_walled = true, pane.absorption = {1, 1, 1}, pane.transmittance = {0.5f, 1, 0.25f};
+    const double theta = 0.6, f = fresnel(std::cos(theta), 1.5);
+    Rendered r = rendered(floor_of(pane, theta), 16, 16, 64 * effort());
+    const render::Image lean = r.image();
+    const auto found = means(lean);
+    for (int c = 0; c < 3; ++c) {
+        CAPTURE(c);
+        CHECK(found[c] == Catch::Approx(f + (1 - f) * pane.transmittance[c]).epsilon(0).margin(3e-3));
+    }
+    // With bodies counted, too: of what is behind a body of this absorption nothing is left.
+    r.effects = "all";
+    CHECK(r.image().pixels == lean.pixels);
+    r.scene.materials[0].thin_walled = false;
+    CHECK(means(r.image())[1] == Catch::Approx(f).epsilon(0).margin(3e-3));
 }
 
 TEST_CASE("a white rough diffuse floor reflects everything") {
