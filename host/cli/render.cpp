@@ -1,7 +1,9 @@
 // clvndf render
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,9 +12,12 @@
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/render_report.h"
 #include "cli/render_scene.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "gltf/files.h"
+#include "render/checkpoint.h"
 #include "render/effects.h"
 #include "render/explain.h"
 #include "render/image.h"
@@ -27,7 +32,10 @@ struct Render {
     SceneOptions scene;
     render::Choices choices;
     CLI::Option* sampler = nullptr;
-    bool explain = false;
+    bool explain = false, effect_costs = false;
+    std::string checkpoint, report;  // files
+    double stops = 0;
+    std::optional<double> exposure;  // the same, if it was given
     std::uint64_t spp = 64;
     double seconds = 0, target_error = 0;  // 0: not asked for
     unsigned max_bounces = 6;
@@ -79,33 +87,81 @@ bool worth_a_look(std::uint64_t samples, std::uint64_t looked_at) {
     return samples >= 16 && samples >= looked_at + looked_at / 4;
 }
 
-void trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, const Interrupt& interrupt,
-           const Common& common) {
+// Where a rendering that is not done goes on later; nothing without --checkpoint.
+class Checkpoint {
+  public:
+    Checkpoint(const std::string& path, const render::Scene& scene, const render::Settings& settings,
+               const std::string& program)
+        : path_(path) {
+        if (!path.empty()) fingerprint_ = render::fingerprint(scene, settings, program);
+    }
+    // True if there is one.
+    bool resume(render::Wavefront& wavefront) const {
+        std::error_code none;
+        if (path_.empty() || !std::filesystem::exists(path_, none)) return false;
+        const std::string bytes = gltf::read_file(path_, std::uint64_t{1} << 36);
+        wavefront.resume(render::state_of(bytes, fingerprint_, path_));
+        return true;
+    }
+    void write(render::Wavefront& wavefront) {
+        if (path_.empty()) return;
+        OutputFile file(path_);
+        file.write(render::checkpoint(wavefront.state(), fingerprint_));
+        file.commit();
+        written_ = Clock::now();
+    }
+    void write_sometimes(render::Wavefront& wavefront) {
+        if (Clock::now() - written_ > std::chrono::seconds(30)) write(wavefront);
+    }
+
+  private:
+    std::string path_, fingerprint_;
+    Clock::time_point written_ = Clock::now();
+};
+
+// What a run has done by itself, beside what a checkpoint had.
+struct Traced {
+    double first = 0;  // seconds until every pixel had a sample
+    double samples_per_second = 0;
+};
+
+Traced trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, const Interrupt& interrupt,
+             const Common& common, Checkpoint& checkpoint) {
     const Progress progress(common.quiet);
     const Goal goal(r, pixels);
+    const std::uint64_t before = wavefront.pixel_samples();
+    Traced traced;
     std::uint64_t looked_at = 0;
     double error = 1;
+    const auto speed = [&] {
+        return static_cast<double>(wavefront.pixel_samples() - before) / goal.elapsed();
+    };
     const auto stop = [&] {
-        const std::uint64_t samples = wavefront.pixel_samples();
-        const double share = goal.share(samples, error), elapsed = goal.elapsed();
-        progress(fmt::format("{:.1f} Msamples/s, {:.0f} s left, error {}", samples / elapsed / 1e6,
+        const double share = goal.share(wavefront.pixel_samples(), error), elapsed = goal.elapsed();
+        progress(fmt::format("{:.1f} Msamples/s, {:.0f} s left, error {}", speed() / 1e6,
                              share > 0 ? elapsed * (1 - share) / share : 0,
                              error < 1 ? fmt::format("{:.2g}", error) : "not yet known"),
                  share);
         return interrupt.asked() || (goal.late() && wavefront.samples() > 0);
     };
     while (!goal.bounded() || wavefront.samples() < r.spp) {
-        if (!wavefront.add_sample(stop)) break;
+        const bool whole = wavefront.add_sample(stop);
+        if (traced.first == 0) traced.first = goal.elapsed();
+        if (!whole) break;
+        checkpoint.write_sometimes(wavefront);
         if (worth_a_look(wavefront.samples(), looked_at)) {
             looked_at = wavefront.samples();
             error = wavefront.image().error;
             if (r.target_error > 0 && error <= r.target_error) break;
         }
     }
+    traced.samples_per_second = speed();
+    checkpoint.write(wavefront);
     if (interrupt.asked() && !common.quiet) {
         progress.clear();
         remark("clvndf: interrupted; {} holds what is there\n", r.output);
     }
+    return traced;
 }
 
 // Beckmann has no bounded sampler, which is the default.
@@ -115,58 +171,110 @@ render::Choices choices_of(const Render& r) {
     return choices;
 }
 
-void run(const Render& r, Common& common) {
-    const Clock::time_point start = Clock::now();
+render::Settings settings_of(const Render& r, const Common& common, const render::Scene& scene) {
     render::Settings settings;
     set_size(r.size, settings);
-    settings.max_bounces = r.max_bounces;
+    settings.max_bounces = render::useful_bounces(scene, r.max_bounces);
     settings.seed = common.seed;
     settings.random = r.choices.random == "philox" ? render::Random::philox : render::Random::sobol;
+    return settings;
+}
+
+void warn(const ShownScene& shown, const Common& common) {
+    if (common.quiet) return;
+    for (const auto& [warning, count] : shown.warnings)
+        remark("clvndf: warning: {}{}\n", warning, count > 1 ? fmt::format(" ({} times)", count) : "");
+}
+
+render::Metadata metadata(const Reported& r) {
+    return {{"software", "clvndf " CLVNDF_VERSION},
+            {"scene", r.shown.scene.name},
+            {"samples per pixel", fmt::format("{:.6g}", r.image.samples)},
+            {"estimated error", fmt::format("{:.3g}", r.image.error)},
+            {"seed", fmt::format("{}", r.settings.seed)},
+            {"random numbers", r.choices.random},
+            {"switches", r.switches.materials},
+            {"math", r.math},
+            {"longest path", fmt::format("{} surfaces", r.settings.max_bounces)},
+            {"device", r.device},
+            {"seconds", fmt::format("{:.2f}", r.seconds)}};
+}
+
+// "auto" where a file's lights have any unit; without a file 0.
+double stops_of(const Render& r, const render::Image& image) {
+    if (r.exposure) return *r.exposure;
+    return r.scene.file.empty() ? 0 : render::fitting_stops(image);
+}
+
+void say_result(const Reported& r, const std::string& output, Common& common) {
+    const render::Image& image = r.image;
+    if (!common.quiet)
+        remark("{}: {} x {}, {:.6g} samples per pixel, {:.1f} s, error {:.2g}{}\n", output, image.width,
+               image.height, image.samples, r.seconds, image.error,
+               r.stops == 0 || !output.ends_with(".png")
+                   ? ""
+                   : fmt::format(", exposed by {:+.1f} stops", r.stops));
+    if (image.bad_pixels == 0) return;
+    remark("clvndf: {} samples in {} pixels were no finite numbers and are left out\n", image.bad_samples,
+           image.bad_pixels);
+    common.exit_status = 1;
+}
+
+void run(const Render& r, Common& common) {
+    const Clock::time_point start = Clock::now();
+    const auto since = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     render::require_image_name(r.output);
+    require_distinct({{"--output", r.output}, {"--report", r.report}, {"--checkpoint", r.checkpoint}},
+                     {{"SCENE", r.scene.file}, {"--env", r.scene.environment}});
     const ShownScene shown = shown_scene(r.scene);
     const render::Scene& scene = shown.scene;
-    if (!common.quiet)
-        for (const auto& [warning, count] : shown.warnings)
-            remark("clvndf: warning: {}{}\n", warning, count > 1 ? fmt::format(" ({} times)", count) : "");
+    const render::Settings settings = settings_of(r, common, scene);
+    const render::Choices choices = choices_of(r);
     const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
-    const render::Switches switches = render::switches(scene, effects, choices_of(r));
+    const render::Switches switches = render::switches(scene, effects, choices);
+    const runtime::Math math = math_named(r.math);
     const runtime::Device device = [&] {
         Target target;
         target.device = r.device;
         return target.choose(common);
     }();
     OutputFile file(r.output);
+    std::optional<OutputFile> report;
+    if (!r.report.empty()) report.emplace(r.report);
     const Interrupt interrupt;
     const render::Tree tree = render::build_tree(scene);
-    if (r.explain)
-        put(render::explanation({device, math_named(r.math), scene, tree, effects, choices_of(r), settings}));
-    const auto stages = render::device_stages(device, math_named(r.math), switches);
+    warn(shown, common);
+    const render::Explained explained{device, math, scene, tree, effects, choices, settings};
+    if (r.explain) put(render::explanation(explained));
+    if (r.effect_costs) put(render::effect_costs(explained));
+    const auto stages = render::device_stages(device, math, switches);
     render::Wavefront wavefront(*stages, scene, tree, settings);
-    trace(r, wavefront, std::uint64_t{settings.width} * settings.height, interrupt, common);
+    Checkpoint checkpoint(r.checkpoint, scene, settings, switches.materials + ' ' + r.math);
+    checkpoint.resume(wavefront);
+    const double ready = since();
+    const Traced traced =
+        trace(r, wavefront, std::uint64_t{settings.width} * settings.height, interrupt, common, checkpoint);
 
     const render::Image image = wavefront.image();
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    file.write(render::encoded(image, r.output,
-                               {{"software", "clvndf " CLVNDF_VERSION},
-                                {"scene", scene.name},
-                                {"samples per pixel", fmt::format("{:.6g}", image.samples)},
-                                {"estimated error", fmt::format("{:.3g}", image.error)},
-                                {"seed", fmt::format("{}", common.seed)},
-                                {"random numbers", r.choices.random},
-                                {"switches", switches.materials},
-                                {"math", r.math},
-                                {"longest path", fmt::format("{} surfaces", r.max_bounces)},
-                                {"device", stages->describe()},
-                                {"seconds", fmt::format("{:.2f}", seconds)}}));
+    const Reported reported{r.scene,
+                            shown,
+                            effects,
+                            choices,
+                            switches,
+                            settings,
+                            wavefront,
+                            image,
+                            stages->describe(),
+                            r.math,
+                            since(),
+                            ready + traced.first,
+                            stops_of(r, image),
+                            traced.samples_per_second};
+    file.write(render::encoded(image, r.output, metadata(reported), reported.stops));
+    if (report) report->write(render_report(reported));
     file.commit();
-    if (!common.quiet)
-        remark("{}: {} x {}, {:.6g} samples per pixel, {:.1f} s, error {:.2g}\n", r.output, image.width,
-               image.height, image.samples, seconds, image.error);
-    if (image.bad_pixels != 0) {
-        remark("clvndf: {} samples in {} pixels were no finite numbers and are left out\n", image.bad_samples,
-               image.bad_pixels);
-        common.exit_status = 1;
-    }
+    if (report) report->commit();
+    say_result(reported, r.output, common);
 }
 
 }  // namespace
@@ -213,6 +321,14 @@ void add_render(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_flag("--explain", r->explain,
                       "print which effects the scene calls for and what each costs here");
+    command->add_flag("--effect-costs", r->effect_costs,
+                      "print each effect's share of the time and of the image's error here");
+    command->add_option("--checkpoint", r->checkpoint,
+                        "a file that holds how far it has come: where there is one, it goes on from there");
+    command->add_option("--report", r->report, "a file for what is known of the rendering, as JSON");
+    add_number(*command, "--exposure", r->stops, -100.0, 100.0,
+               "of a PNG: times 2 to this; without it 0, of a file's scene what fits")
+        ->each([r](const std::string&) { r->exposure = r->stops; });
     CLI::Option* const file = command->add_option("SCENE", r->scene.file, "a scene: .gltf or .glb");
     command->add_option("--orbs", r->scene.orbs, "without a file: what five orbs are of")
         ->check(CLI::IsMember(render::orb_kinds()))

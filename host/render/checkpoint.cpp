@@ -48,8 +48,10 @@ std::string fingerprint(const Scene& scene, const Settings& settings, std::strin
     const vndf_render_sky sky = sky_of(scene, lamps_of(scene));
     hash.add(&view, sizeof view);
     hash.add(&sky, sizeof sky);
-    return fmt::format("{} x {}, {} surfaces, seed {}, {}, scene {:016x}", settings.width, settings.height,
-                       settings.max_bounces, settings.seed, program, hash.value());
+    Hash code;
+    code.add(program.data(), program.size());
+    return fmt::format("{} x {}, {} surfaces, seed {}, program {:016x}, scene {:016x}", settings.width,
+                       settings.height, settings.max_bounces, settings.seed, code.value(), hash.value());
 }
 
 std::string checkpoint(const State& state, const std::string& fingerprint) {

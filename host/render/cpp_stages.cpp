@@ -58,6 +58,11 @@ class CppStages final : public Stages {
                      [&](unsigned, std::size_t begin, std::size_t end) { run(given, begin, end); });
     }
     std::string describe() const override { return "C++"; }
+    std::size_t bytes() const override {
+        std::size_t sum = 0;
+        for (const auto& buffer : buffers_) sum += buffer.size() * sizeof(float);
+        return sum;
+    }
     unsigned packet() const override { return VNDF_PACKET; }
     bool has(const std::string& stage) const override { return runs_.count(stage) != 0; }
 

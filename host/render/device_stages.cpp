@@ -34,9 +34,10 @@ class DeviceStages final : public Stages {
     Buffer buffer(std::size_t bytes) override {
         return program_.guarded("allocate memory", [&] {
             // Never empty, which OpenCL refuses.
-            buffers_.push_back(program_.buffer(std::max<std::size_t>(bytes, 4)));
-            program_.queue().enqueueFillBuffer(buffers_.back(), cl_uint{0}, 0,
-                                               std::max<std::size_t>(bytes, 4) / 4 * 4);
+            bytes = std::max<std::size_t>(bytes, 4);
+            buffers_.push_back(program_.buffer(bytes));
+            program_.queue().enqueueFillBuffer(buffers_.back(), cl_uint{0}, 0, bytes / 4 * 4);
+            bytes_ += bytes;
             return buffers_.size() - 1;
         });
     }
@@ -79,6 +80,7 @@ class DeviceStages final : public Stages {
     }
 
     std::string describe() const override { return program_.device().label(); }
+    std::size_t bytes() const override { return bytes_; }
     unsigned packet() const override { return packet_; }
     bool has(const std::string& stage) const override {
         return program_.has_kernel("vndf_render_" + stage) || materials_.has_kernel("vndf_render_" + stage);
@@ -94,6 +96,7 @@ class DeviceStages final : public Stages {
     bool timed_;
     std::map<std::string, double> seconds_;
     std::vector<cl::Buffer> buffers_;
+    std::size_t bytes_ = 0;
     std::map<std::string, cl::Kernel> kernels_;
 };
 

@@ -339,6 +339,16 @@ std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
     return effects;
 }
 
+unsigned useful_bounces(const Scene& scene, unsigned asked) {
+    const auto black = [](const Material& m) {
+        return m.coat == 0 && (m.metal == 0 || m.first == Vec{}) &&
+               (m.metal == 1 || (m.albedo == Vec{} && !dielectric(m)));
+    };
+    // A conductor's first numbers are an index where Fresnel's equations are asked for: none of it is black.
+    if (scene.fresnel != "schlick") return asked;
+    return std::all_of(scene.materials.begin(), scene.materials.end(), black) ? 0 : asked;
+}
+
 Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices) {
     const bool compared = choices.sampler == "ndf" || choices.sampler == "cosine";
     if (choices.ndf == "beckmann" && !compared && choices.sampler != "plain")

@@ -29,6 +29,9 @@ const std::vector<std::string>& samplers();
 // Throws InputError at other names, or if nothing is left of the materials.
 std::vector<Effect> effects_for(const Scene& scene, std::string_view asked);
 
+// How many surfaces a path need visit, `asked` at most: none where no material sends light on.
+unsigned useful_bounces(const Scene& scene, unsigned asked);
+
 // Throws InputError if the choices contradict each other.
 Switches switches(const Scene& scene, const std::vector<Effect>& effects, const Choices& choices);
 

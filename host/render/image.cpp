@@ -92,10 +92,11 @@ unsigned char srgb(double linear) {
     return static_cast<unsigned char>(std::lround(255 * encoded));
 }
 
-std::string png(const Image& image) {
+std::string png(const Image& image, double stops) {
     std::vector<unsigned char> bytes(image.pixels.size());
+    const double scale = std::exp2(stops);
     std::transform(image.pixels.begin(), image.pixels.end(), bytes.begin(),
-                   [](float x) { return srgb(with_shoulder(x)); });
+                   [&](float x) { return srgb(with_shoulder(scale * x)); });
     std::string file;
     const auto append = [](void* to, void* data, int size) {
         static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
@@ -129,12 +130,26 @@ void require_image_name(const std::string& path) {
     }
 }
 
-std::string encoded(const Image& image, const std::string& path, [[maybe_unused]] const Metadata& metadata) {
+double fitting_stops(const Image& image) {
+    std::vector<double> bright;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+        const double luminance =
+            0.2126 * image.pixels[i] + 0.7152 * image.pixels[i + 1] + 0.0722 * image.pixels[i + 2];
+        if (luminance > 0) bright.push_back(luminance);
+    }
+    if (bright.empty()) return 0;
+    const auto tenth = bright.end() - 1 - static_cast<std::ptrdiff_t>(bright.size() / 10);
+    std::nth_element(bright.begin(), tenth, bright.end());
+    return std::log2(0.8 / *tenth);
+}
+
+std::string encoded(const Image& image, const std::string& path, [[maybe_unused]] const Metadata& metadata,
+                    [[maybe_unused]] double stops) {
 #if CLVNDF_OPENEXR
     if (ends_with(path, ".exr")) return exr(image, metadata);
 #endif
 #if CLVNDF_STB
-    if (ends_with(path, ".png")) return png(image);
+    if (ends_with(path, ".png")) return png(image, stops);
 #endif
     lacks(path, "library for it", "libopenexr-dev and libstb-dev");
 }

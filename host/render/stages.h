@@ -39,6 +39,8 @@ class Stages {
     // Runs vndf_render_<stage> on at least `items` items, in whole groups.
     virtual void launch(const std::string& stage, std::size_t items, Arguments arguments) = 0;
     virtual std::string describe() const = 0;
+    // Of all buffers.
+    virtual std::size_t bytes() const = 0;
     // Camera rays that an item of the stage `packets` takes; 1: there is no such stage.
     virtual unsigned packet() const = 0;
     // Whether the program has a stage, of those that only some effects have.

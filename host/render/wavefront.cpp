@@ -62,6 +62,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     around_pdf_ = stages.upload(e.pdf);
     around_keep_ = stages.upload(e.keep);
     around_other_ = stages.upload(e.other);
+    memory_.tree = (tree.nodes.size() + tree.leaves.size()) * sizeof(float);
+    memory_.scene = stages.bytes() - memory_.tree;
     const auto planes = [&](std::size_t count) { return stages_.buffer(count * stride_ * sizeof(float)); };
     for (int side = 0; side < 2; ++side) {
         path_[side] = planes(VNDF_PATH_PLANES);
@@ -76,6 +78,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     from_ = planes(1);
     offset_ = planes(1);
     light_ = planes(3);
+    memory_.paths = stages.bytes() - memory_.tree - memory_.scene;
+    memory_.path = memory_.paths / stride_;
     film_ = stages_.buffer(std::size_t{VNDF_FILM_PLANES} * film_stride_ * sizeof(float));
     word_buffer_ = stages_.buffer(VNDF_QUAD_WORDS * quads(settings) * sizeof(std::uint32_t));
 }
@@ -83,7 +87,7 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
 bool Wavefront::add_sample(const std::function<bool()>& stop) {
     const std::vector<std::uint32_t> words = words_.next();
     stages_.write(word_buffer_, words.data(), words.size() * sizeof(std::uint32_t));
-    for (std::uint32_t first = 0; first < pixels_; first += queue_) {
+    for (std::uint32_t first = ahead_; first < pixels_; first += queue_) {
         const std::uint32_t count = std::min(queue_, pixels_ - first);
         trace(first, count);
         const float odd = samples_ % 2 == 1 ? 1.0f : 0.0f;
@@ -175,9 +179,21 @@ void Wavefront::turn(std::uint32_t first, std::uint32_t count, unsigned bounce, 
                    {surface_, word_buffer_, bsdf_quad, slot, first, stride_, roulette, path});
 }
 
+State Wavefront::state() {
+    State state{samples_, ahead_, std::vector<float>(std::size_t{VNDF_FILM_PLANES} * film_stride_)};
+    stages_.read(film_, state.film.data(), state.film.size() * sizeof(float));
+    return state;
+}
+
+void Wavefront::resume(const State& state) {
+    for (std::uint64_t i = 0; i < state.samples; ++i) words_.next();
+    samples_ = state.samples;
+    ahead_ = state.ahead;
+    stages_.write(film_, state.film.data(), state.film.size() * sizeof(float));
+}
+
 Image Wavefront::image() {
-    std::vector<float> film(std::size_t{VNDF_FILM_PLANES} * film_stride_);
-    stages_.read(film_, film.data(), film.size() * sizeof(float));
+    const std::vector<float> film = state().film;
     const auto plane = [&](std::size_t k, std::size_t pixel) { return film[k * film_stride_ + pixel]; };
     Image image{settings_.width, settings_.height, std::vector<float>(std::size_t{3} * pixels_)};
     image.samples = static_cast<double>(pixel_samples()) / pixels_;

@@ -31,6 +31,13 @@ struct Image {
     std::uint64_t bad_pixels = 0, bad_samples = 0;  // that had no finite number; left out of the means
 };
 
+// What a rendering has done so far.
+struct State {
+    std::uint64_t samples = 0;
+    std::uint32_t ahead = 0;  // pixels that have one sample more
+    std::vector<float> film;
+};
+
 class Wavefront {
   public:
     Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const Settings& settings);
@@ -39,7 +46,16 @@ class Wavefront {
     bool add_sample(const std::function<bool()>& stop = [] { return false; });
 
     Image image();
+    State state();
+    // In place of what this one has done, which is nothing yet.
+    void resume(const State& state);
     std::uint64_t samples() const { return samples_; }
+    // Bytes on the device: of the scene and its tree, of all paths in flight, and of one.
+    struct Memory {
+        std::size_t scene, tree, paths, path;
+    };
+    const Memory& memory() const { return memory_; }
+    std::uint32_t lamps() const { return lamp_table_.count; }
     // Samples of single pixels so far.
     std::uint64_t pixel_samples() const { return samples_ * pixels_ + ahead_; }
 
@@ -58,6 +74,7 @@ class Wavefront {
     bool media_, dressed_, shines_;  // whether the program has these stages
     Lamps lamp_table_;
     Words words_;
+    Memory memory_;
     std::uint64_t samples_ = 0;
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
     Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, dressings_, textures_, texels_;
