@@ -303,7 +303,7 @@ TEST_CASE("a material says all that it can") {
     CHECK(!m.unlit);
     for (const render::TextureUse& use : scene.dressings[0].textures) CHECK(use.texture == 0);
     CHECK(scene.bitmaps.at(0).texels == std::vector<std::uint32_t>{rgba(16, 32, 48)});
-    CHECK(scene.material_names == std::vector<std::string>{"all"});
+    CHECK(scene.material_names == std::vector<std::string>{"all?of it"});
     CHECK(scene.materials[0] == render::material_of(m));
 }
 
@@ -388,7 +388,7 @@ TEST_CASE("pixels of every kind of PNG, and of JPEG") {
          png_file(2, 1, 4, PngColour::grey, {"\x1F"}),
          {rgba(17, 17, 17), rgba(255, 255, 255)}},
         {"grey", png_file(1, 2, 8, PngColour::grey, {"\x07", "\x09"}, gamma), {rgba(7, 7, 7), rgba(9, 9, 9)}},
-        {"grey of 16 bits", png_file(1, 1, 16, PngColour::grey, {"\x80\x80"}), {rgba(128, 128, 128)}},
+        {"grey of 16 bits", png_file(1, 1, 16, PngColour::grey, {std::string("\0\xFF", 2)}), {rgba(1, 1, 1)}},
         {"grey and alpha", png_file(1, 1, 8, PngColour::grey_alpha, {"\x07\x08"}), {rgba(7, 7, 7, 8)}},
         {"palette",
          png_file(2, 1, 8, PngColour::palette, {std::string("\0\1", 2)}, palette + alphas),
@@ -437,6 +437,20 @@ TEST_CASE("tangents are made where the normal map has none, and mirrored coordin
     check_near(corner(turned, 1, 0).tangent, {0, -1, 0, 1});
 }
 
+TEST_CASE("vertices in a mirror's line are there once for each side") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
+    const render::Scene scene = load(grid_file()).scene;
+    CHECK(scene.vertices.size() == 9 + 3);
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        const bool left =
+            corner(scene, t, 0).place[0] + corner(scene, t, 1).place[0] + corner(scene, t, 2).place[0] < 3;
+        for (int k = 0; k < 3; ++k)
+            CHECK(corner(scene, t, k).tangent ==
+                  std::array<float, 4>{left ? -1.0f : 1.0f, 0, 0, left ? -1.0f : 1.0f});
+    }
+    CHECK(corner(scene, 0, 1).colour == std::array<float, 4>{0.5f, 0, 0.5f, 1});
+}
+
 TEST_CASE("a tangent is the mean by angles of the triangles around") {
     if (!decodes_images) VNDF_SKIP(no_decoder);
     // A fan about the origin whose coordinates are sheared in the second triangle: tangents along x and along (1, 1).
@@ -477,7 +491,7 @@ TEST_CASE("vertices that no triangle uses are left out, however many there are")
                                            {{"count", 3},
                                             {"indices", {{"bufferView", numbers}, {"componentType", 5125}}},
                                             {"values", {{"bufferView", places}}}}}});
-        file.attributes()["POSITION"] = places + 1;
+        file.attributes()["POSITION"] = file.attributes()["NORMAL"] = places + 1;
         file.primitive()["indices"] = numbers;
         const render::Scene scene = load(file).scene;
         CHECK(scene.vertices.size() == 3);
@@ -584,6 +598,10 @@ TEST_CASE("URIs are decoded, or refused") {
     CHECK(gltf::base64_decoded("Zm9vYmE=") == "fooba");
     CHECK(gltf::base64_decoded("") == "");
     for (const char* wrong : {"Z", "Zm9v Yg", "Zm9vYg===", "Z*=="}) CHECK(!gltf::base64_decoded(wrong));
+    // Names from a file in a message are short lines of whole characters.
+    const std::string long_name = std::string(59, 'a') + "\xC3\xA9";
+    CHECK(gltf::printable(long_name) == std::string(59, 'a') + "...");
+    CHECK(gltf::printable("a\x1B\n\x7F\xC3\xA9") == "a???\xC3\xA9");
     CHECK(gltf::has_scheme("http://x"));
     CHECK(!gltf::has_scheme("a/b:c"));
 }
