@@ -121,16 +121,6 @@ std::vector<Effect> called_effects(const Scene& scene) {
     return effects;
 }
 
-// The models of energy are a conductor's: with them even "all" has no dielectric.
-bool compiles(const Effect& effect, const Choices& choices) {
-    if (choices.energy == "none" || effect.name != "dielectric") return true;
-    if (effect.on && !effect.called_by.empty())
-        throw InputError(
-            fmt::format("--energy {}: of conductors alone, and {} is a dielectric; none is allowed",
-                        choices.energy, effect.called_by));
-    return false;
-}
-
 }  // namespace
 
 const std::vector<std::string>& samplers() {
@@ -178,8 +168,7 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     std::string paths = "-DVNDF_RANDOM=" + choices.random;
     for (const Effect& effect : effects) {
-        const std::string macro =
-            fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on && compiles(effect, choices));
+        const std::string macro = fmt::format(" -D{}={:d}", switch_of(effect.name), effect.on);
         text += macro;
         // Of paths a plane, of the bodies that they are in.
         if (effect.name == "absorption") paths += macro;
