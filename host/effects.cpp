@@ -31,15 +31,6 @@ void choose(Effects& chosen, const std::string& word) {
     throw unknown(word);
 }
 
-// The models of energy are a conductor's: with them "all" has no dielectric.
-void leave_out_dielectric(Effects& chosen, std::string_view list) {
-    const std::vector<std::string> words = split(list, ',');
-    if (std::count(words.begin(), words.end(), "dielectric"))
-        throw InputError(fmt::format("--effects: dielectric with energy={}; energy=none is allowed",
-                                     chosen.choices.at("energy")));
-    chosen.on.at("dielectric") = false;
-}
-
 }  // namespace
 
 const std::vector<EffectChoice>& effect_choices() {
@@ -88,7 +79,6 @@ Effects parse_effects(std::string_view list) {
         throw InputError(fmt::format("--effects: sampling={} with ndf=beckmann; plain is allowed",
                                      chosen.choices.at("sampling")));
     for (const EffectChoice& choice : effect_choices()) chosen.choices.emplace(choice.name, choice.values[0]);
-    if (chosen.choices.at("energy") != "none") leave_out_dielectric(chosen, list);
     if (beckmann) chosen.choices["sampling"] = "plain";
     if (!chosen.on.at("conductor") && !chosen.on.at("dielectric") && !chosen.on.at("lambert"))
         throw InputError(fmt::format(

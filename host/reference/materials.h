@@ -336,15 +336,26 @@ class MaterialView {
         base_ = facets(p_.alpha_x, p_.alpha_y, denser ? MaterialModel::Sampling::plain : model.sampling);
         coat_ = facets(p_.coat_alpha, p_.coat_alpha, model.sampling);
         if (model.energy == MaterialModel::Energy::kulla_conty)
-            for (int c = 0; c < 3; ++c)
+            for (int c = 0; c < 3; ++c) {
                 average_[c] = p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance(c, x); });
+                average_slope_[c] =
+                    p.tint[c] * cosine_mean<R>([&](const R& x) { return reflectance_slope(c, x); });
+            }
+    }
+
+    // The density alone, for a fraction of the work.
+    R density(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
+        MaterialView alone = *this;
+        alone.density_alone_ = true;
+        return alone(direction, losses).pdf;
     }
 
     MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
-        if (model_.energy != MaterialModel::Energy::none) return coated(wi, compensated(wi, losses));
-        MaterialValue<R> value = !crosses(wi) ? reflected(wi) : media_.body ? refracted(wi) : straight(wi);
-        if (inside_ && !moved_) add_index_slope(direction, value);
+        MaterialValue<R> value = !crosses(wi)  ? reflected(wi, losses)
+                                 : media_.body ? refracted(wi)
+                                               : straight(wi);
+        if (inside_ && !moved_ && !density_alone_) add_index_slope(direction, losses, value);
         return moved_ ? value : coated(wi, value);
     }
 
@@ -392,6 +403,7 @@ class MaterialView {
         const Vec3<R> h = half(wi);
         const R exponent = this->exponent(h, coat_), pdf = facets_pdf(coat_, wi);
         value.pdf += chance * pdf;
+        if (density_alone_) return value;
         value.pdf_slope += (own + 2 * chance * exponent) * pdf;
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = value.settled && settled(coat_, wi, height_o, height_i);
@@ -412,16 +424,9 @@ class MaterialView {
         return p_.coat * std::abs(high - low) / (2 * step);
     }
 
-    // --- A diffuse surface: BSDF times pi of one, and the size of its terms ---
+    // --- What a rough diffuse surface has beyond Lambert's, BSDF times pi, under an interface that bends both directions, before it
+    // lets them through; and the size of its terms ---
 
-    std::pair<R, R> in_the_open(const R& albedo, const Vec3<R>& wi) const {
-        if (p_.diffuse_roughness == 0) return {albedo, albedo};
-        const RoughDiffuse<R> rough{p_.diffuse_roughness};
-        const R x = wo_.x * wi.x, y = wo_.y * wi.y;
-        return {rough(albedo, wo_.z, wi.z, x + y),
-                rough.size(albedo, wo_.z, wi.z, std::abs(x) + std::abs(y))};
-    }
-    // What a rough one has beyond Lambert's under an interface that bends both directions, before it lets them through.
     std::pair<R, R> beyond_lambert(const R& albedo, const Vec3<R>& wi) const {
         if (p_.diffuse_roughness == 0) return {R(0), R(0)};
         // A weaker interface is one that bends less.
@@ -435,40 +440,6 @@ class MaterialView {
         return {(rough(albedo, o, i, x + y, back) - albedo) * under.once(), size * under.once()};
     }
 
-    // Without a dielectric: energy models are of conductors.
-    MaterialValue<R> compensated(const Vec3<R>& wi, const Losses<R>& losses) const {
-        MaterialValue<R> value;
-        const Vec3<R> h = half(wi);
-        value.exponent = exponent(h);
-        const R diffuse = p_.metal * diffuse_share(losses);
-        value.pdf = (p_.metal - diffuse) * facets_pdf(base_, wi) + (1 - p_.metal + diffuse) * lambert_pdf(wi);
-        const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
-        value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
-        if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
-        const R passing = part(wi, height_i);
-        const R mirror = mirrored(base_, h, wi);
-        // For directions that are unit vectors but for rounding: with either the same.
-        const R cosine = (dot(wo_, h) + dot(wi, h)) / 2;
-        for (int c = 0; c < 3; ++c) {
-            R scale = passing * p_.metal * p_.tint[c] * mirror;
-            if (model_.energy == MaterialModel::Energy::turquin)
-                scale *= 1 + p_.tint[c] * reflectance(c, R(1)) * losses.o / (1 - losses.o);
-            const R white = passing * (1 - p_.metal) * wi.z / pi<R>();
-            const auto [albedo, size] = in_the_open(p_.albedo[c], wi);
-            value.f[c] = scale * reflectance(c, cosine) + white * albedo;
-            value.slope[c] =
-                scale * reflectance_slope(c, cosine) + value.f[c] / height_i + white * (size - albedo);
-            if (model_.energy == MaterialModel::Energy::turquin)
-                value.slope[c] += scale * reflectance(c, cosine) * losses.o * reflectance_slope(c, R(1));
-            if (model_.energy != MaterialModel::Energy::kulla_conty) continue;
-            const R lobe = passing * p_.metal * kulla_conty(c, losses) * losses.o * losses.i /
-                           kulla_conty_average(losses) * wi.z / pi<R>();
-            value.f[c] += lobe;
-            value.slope[c] += lobe / height_i + 4 * lobe * average_slope(c) / average_[c];
-        }
-        return value;
-    }
-
     // Through a thin wall by the normals of reflections.
     bool by_normal() const {
         return base_.sampling == MaterialModel::Sampling::plain || (transmits() && !media_.body);
@@ -477,15 +448,19 @@ class MaterialView {
 
     // --- Above the surface ---
 
-    MaterialValue<R> reflected(const Vec3<R>& wi) const {
+    MaterialValue<R> reflected(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
         const Vec3<R> h = half(wi);
         value.exponent = exponent(h);
         // For directions that are unit vectors but for rounding: with either the same.
         const R cosine = (dot(wo_, h) + dot(wi, h)) / 2, mirror_pdf = facets_pdf(base_, wi),
-                diffuse_pdf = diffuse_share() * lambert_pdf(wi);
-        const auto pdf = [&](const R& c) { return (p_.metal + odds(c).first) * mirror_pdf + diffuse_pdf; };
+                multiple = p_.metal * multiple_share(losses),
+                diffuse_pdf = (diffuse_share() + multiple) * lambert_pdf(wi);
+        const auto pdf = [&](const R& c) {
+            return (p_.metal - multiple + odds(c).first) * mirror_pdf + diffuse_pdf;
+        };
         value.pdf = pdf(cosine);
+        if (density_alone_) return value;
         // Of what a smooth interface lets in rounding leaves a part of 1.
         const R unlit =
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
@@ -499,7 +474,10 @@ class MaterialView {
         const R lets_in = 1 - media_.reflectance(wo_.z), lets_out = 1 - media_.reflectance(wi.z);
         const DiffuseUnder<R> paint(media_, p_.ior);
         for (int c = 0; c < 3; ++c) {
-            const R scale = passing * p_.metal * p_.tint[c] * mirror, rest = passing * (1 - p_.metal);
+            R scale = passing * p_.metal * p_.tint[c] * mirror;
+            const R rest = passing * (1 - p_.metal);
+            if (model_.energy == MaterialModel::Energy::turquin)
+                scale *= 1 + p_.tint[c] * reflectance(c, R(1)) * losses.o / (1 - losses.o);
             const R colour = media_.colour[c];
             const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x, colour); };
             const R white = rest * (1 - p_.transmission) * wi.z / pi<R>();
@@ -512,6 +490,13 @@ class MaterialView {
                              under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z)) +
                              white * size * lets_in * lets_out +
                              rest * mirror * media_.rounding(cosine, colour) + diffuse * colour_slope();
+            if (model_.energy == MaterialModel::Energy::turquin)
+                value.slope[c] += scale * reflectance(c, cosine) * losses.o * reflectance_slope(c, R(1));
+            if (model_.energy != MaterialModel::Energy::kulla_conty) continue;
+            const R lobe = passing * p_.metal * kulla_conty(c, losses) * losses.o * losses.i /
+                           kulla_conty_average(losses) * wi.z / pi<R>();
+            value.f[c] += lobe;
+            value.slope[c] += lobe / height_i + 4 * lobe * average_slope_[c] / average_[c];
         }
         return value;
     }
@@ -526,6 +511,7 @@ class MaterialView {
         const R cosine = (dot(wo_, h) + dot(raised, h)) / 2, seen = facets_pdf(base_, raised);
         const auto pdf = [&](const R& c) { return odds(c).second * seen; };
         value.pdf = pdf(cosine);
+        if (density_alone_) return value;
         const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
         // Next to a facet that is seen from its edge 1 - F has few digits.
         const R edge = 1 / cosine;
@@ -565,6 +551,7 @@ class MaterialView {
         const R jacobian = media_.jacobian(cos_o, cos_i);
         const auto pdf = [&](const R& c) { return odds(c).second * seen * jacobian; };
         value.pdf = pdf(cos_o);
+        if (density_alone_) return value;
         // Twice the roundings of a reflection: of its density, and of the cosines with the facet.
         const R edge = 1 / cos_o + 1 / cos_i;
         const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
@@ -617,12 +604,12 @@ class MaterialView {
         return std::abs(value(cosine + step) - value(cosine - step)) / (2 * step);
     }
     // Behind the surface 1 / ior is rounded.
-    void add_index_slope(const Vec3<R>& direction, MaterialValue<R>& value) const {
+    void add_index_slope(const Vec3<R>& direction, const Losses<R>& losses, MaterialValue<R>& value) const {
         const R step = R(1e-7);
         MaterialView low = *this, high = *this;
         low.media_.here *= 1 - step, high.media_.here *= 1 + step;
         low.moved_ = high.moved_ = true;
-        const MaterialValue<R> below = low(direction), above = high(direction);
+        const MaterialValue<R> below = low(direction, losses), above = high(direction, losses);
         for (int c = 0; c < 3; ++c) value.slope[c] += std::abs(above.f[c] - below.f[c]) / (2 * step);
         value.pdf_slope += std::abs(above.pdf - below.pdf) / (2 * step);
     }
@@ -697,9 +684,6 @@ class MaterialView {
         }
         return sum / (2 * step);
     }
-    R average_slope(int c) const {
-        return p_.tint[c] * cosine_mean<R>([&](const R& cosine) { return reflectance_slope(c, cosine); });
-    }
     // Kulla and Conty's colour, and the average loss that their lobe is divided by: not less than 2^-9.
     R kulla_conty(int c, const Losses<R>& losses) const {
         const R f = average_[c];
@@ -709,7 +693,7 @@ class MaterialView {
         return losses.average < R(0x1p-9) ? R(0x1p-9) : losses.average;
     }
     // The share of the brightest channel's light.
-    R diffuse_share(const Losses<R>& losses) const {
+    R multiple_share(const Losses<R>& losses) const {
         if (model_.energy != MaterialModel::Energy::kulla_conty) return 0;
         R f = 0, colour = 0;
         for (int c = 0; c < 3; ++c) {
@@ -752,11 +736,11 @@ class MaterialView {
     MaterialModel model_;
     MaterialParameters<R> p_;
     Precision precision_;
-    bool behind_, inside_ = false, moved_ = false;
+    bool behind_, inside_ = false, moved_ = false, density_alone_ = false;
     Vec3<R> wo_, ng_;
     Interface<R> media_{};
     Facets base_{}, coat_{};
-    Rgb<R> average_{};  // reflectances, by the cosine law
+    Rgb<R> average_{}, average_slope_{};  // reflectances, by the cosine law
     R mean_cosine_ = 1;
 };
 

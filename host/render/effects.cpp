@@ -297,16 +297,6 @@ bool of_paths(const std::string& effect, bool alpha) {
            (alpha && (effect == "texture" || effect == "vertex_colour"));
 }
 
-// The models of energy are a conductor's: with them even "all" has no dielectric.
-bool compiles(const Effect& effect, const Choices& choices) {
-    if (choices.energy == "none" || effect.name != "dielectric") return true;
-    if (effect.on && !effect.called_by.empty())
-        throw InputError(
-            fmt::format("--energy {}: of conductors alone, and {} is a dielectric; none is allowed",
-                        choices.energy, effect.called_by));
-    return false;
-}
-
 }  // namespace
 
 const std::vector<std::string>& samplers() {
@@ -367,10 +357,9 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
     const bool alpha = std::any_of(effects.begin(), effects.end(),
                                    [](const Effect& e) { return e.name == "alpha" && e.on; });
     for (const Effect& effect : effects) {
-        const bool on = effect.on && compiles(effect, choices);
-        text += fmt::format(" -D{}={:d}", effect.macro, on);
+        text += fmt::format(" -D{}={:d}", effect.macro, effect.on);
         if (effect.macro.starts_with("VNDF_RENDER_") || of_paths(effect.name, alpha))
-            paths += fmt::format(" -D{}={:d}", effect.macro, on && of_paths(effect.name, alpha));
+            paths += fmt::format(" -D{}={:d}", effect.macro, effect.on && of_paths(effect.name, alpha));
     }
     return {paths, text};
 }

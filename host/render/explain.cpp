@@ -55,6 +55,13 @@ double difference(const Image& a, const Image& b) {
     return sum == 0 ? 0 : std::sqrt(square / n) / (sum / n);
 }
 
+double noise_of(const Image& image) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+        sum += 0.2126 * image.pixels[i] + 0.7152 * image.pixels[i + 1] + 0.0722 * image.pixels[i + 2];
+    return image.error * sum;
+}
+
 // The materials' lobes: without the last of them nothing is left.
 bool may_turn_off(const std::vector<Effect>& effects, const Effect& effect) {
     const auto lobe = [](const Effect& e) {
@@ -124,7 +131,7 @@ std::string effect_costs(const Explained& what) {
         const std::optional<Rendering> other = turned(what, i);
         if (!other) return fmt::format("{:<18}{:>14}\n", effect.name, "all of it");
         const Rendering &with = effect.on ? usual : *other, &without = effect.on ? *other : usual;
-        const double noise = with.image.error, rest = without.image.error;
+        const double noise = noise_of(with.image), rest = noise_of(without.image);
         return fmt::format("{:<18}{:>+12.1f} %{:>+12.1f} %{:>14.2g}\n", effect.name,
                            100 * (1 - without.seconds / with.seconds),
                            noise > 0 ? 100 * (1 - rest * rest / (noise * noise)) : 0,

@@ -6,7 +6,10 @@
 #ifndef VNDF_RENDER_LIGHTS_H
 #define VNDF_RENDER_LIGHTS_H
 
+#include "effects.h"
+#if VNDF_RENDER_ENVIRONMENT
 #include "environment.h"
+#endif
 #include "random.h"
 #include "texture.h"
 

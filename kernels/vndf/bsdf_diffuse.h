@@ -13,7 +13,7 @@
 
 VNDF_BEGIN
 
-#if VNDF_IMPL_DIFFUSE
+#if VNDF_LAMBERT
 
 #if VNDF_DIELECTRIC
 
@@ -28,7 +28,7 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_smooth_reflectance(VNDF_REAL cosine, VNDF_REAL 
 // Source: Jakob, Mitsuba renderer, 2010, the smooth plastic: T(wo) T(wi) albedo / (pi eta^2 (1 - albedo R)), T = 1 - F(cos) and
 //     R the reflectance from inside, averaged; here a / (1 + (1 - a) q) (1 + q) / eta^2, 1 + q = 1 / (1 - R), q by a fit.
 // Accuracy of the fit: 1.4e-3 of 1 + q for eta in [1, 4]. An index below 1 counts as its reciprocal: white paint then loses light.
-VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_bsdf_lobe d;
     struct vndf_impl_interface n = v.media;
     VNDF_REAL ior = vndf_impl_bsdf_index(v.b), dense = ior < VNDF_R(1.0) ? VNDF_R(1.0) / ior : ior,
@@ -69,18 +69,22 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
 
 #else
 
-#if VNDF_LAMBERT
-// Of the surface in the open: BSDF times pi.
-VNDF_FN struct vndf_rgb vndf_impl_bsdf_albedo(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+// Of the surface in the open.
+VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
+    struct vndf_impl_bsdf_lobe d;
+    d.share = VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b);
+    d.weight = v.b.albedo;
 #if VNDF_ROUGH_DIFFUSE
     VNDF_REAL s = VNDF_FMA(v.o.x, i.x, v.o.y * i.y);
     struct vndf_impl_rough_diffuse rough = vndf_impl_rough_diffuse_of(v.o.z, i.z, s, v.b.diffuse_roughness);
-    return vndf_impl_rgb_rougher(v.b.albedo, rough, VNDF_R(1.0), v.b.albedo);
-#else
-    (void)i;
-    return v.b.albedo;
+    d.weight = vndf_impl_rgb_rougher(d.weight, rough, VNDF_R(1.0), v.b.albedo);
 #endif
+    d.pdf = vndf_lambert_pdf_wi(i);
+    return d;
 }
+
+#endif
+
 #endif
 
 #if VNDF_IMPL_KULLA_CONTY
@@ -88,33 +92,30 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_albedo(struct vndf_impl_bsdf_view v, VNDF
 // Of both parts' light that of one draw.
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_bsdf_lobe d;
-    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), other = VNDF_R(1.0) - metal;
-    d.share = VNDF_FMA(metal, v.multiple.share, other);
+#if VNDF_LAMBERT
+    struct vndf_impl_bsdf_lobe lambert = vndf_impl_bsdf_lambert(v, i);
+#else
+    struct vndf_impl_bsdf_lobe lambert;
+    lambert.share = VNDF_R(0.0);
+    lambert.weight = vndf_impl_rgb(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(0.0));
+    lambert.pdf = vndf_lambert_pdf_wi(i);
+#endif
+    d.share = VNDF_FMA(vndf_impl_bsdf_metal(v.b), v.multiple.share, lambert.share);
     VNDF_REAL rcp = VNDF_R(1.0) / (d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
     d.weight = vndf_impl_bsdf_multiple(v.b, v.multiple, i);
-#if VNDF_LAMBERT
-    struct vndf_rgb albedo = vndf_impl_bsdf_albedo(v, i);
-    d.weight = vndf_impl_rgb(VNDF_FMA(other, albedo.r, d.weight.r), VNDF_FMA(other, albedo.g, d.weight.g),
-                             VNDF_FMA(other, albedo.b, d.weight.b));
-#endif
+    d.weight = vndf_impl_rgb(VNDF_FMA(lambert.share, lambert.weight.r, d.weight.r),
+                             VNDF_FMA(lambert.share, lambert.weight.g, d.weight.g),
+                             VNDF_FMA(lambert.share, lambert.weight.b, d.weight.b));
     d.weight = vndf_impl_rgb_scaled(d.weight, rcp);
-    d.pdf = vndf_lambert_pdf_wi(i);
+    d.pdf = lambert.pdf;
     return d;
 }
 
-#else
+#elif VNDF_IMPL_DIFFUSE
 
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
-    struct vndf_impl_bsdf_lobe d;
-    d.share = VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b);
-    d.weight = vndf_impl_bsdf_albedo(v, i);
-    d.pdf = vndf_lambert_pdf_wi(i);
-    return d;
+    return vndf_impl_bsdf_lambert(v, i);
 }
-
-#endif
-
-#endif
 
 #endif
 

@@ -16,6 +16,32 @@ struct vndf_impl_specular {
 #endif
 };
 
+// How often the conductor is drawn, of its share.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_often(struct vndf_impl_bsdf_view v) {
+#if VNDF_IMPL_KULLA_CONTY
+    return VNDF_R(1.0) - v.multiple.share;
+#else
+    (void)v;
+    return VNDF_R(1.0);
+#endif
+}
+VNDF_FN VNDF_REAL vndf_impl_bsdf_metal_drawn(struct vndf_impl_bsdf_view v) {
+    return vndf_impl_bsdf_metal(v.b) * vndf_impl_bsdf_often(v);
+}
+
+#if VNDF_CONDUCTOR
+// What it reflects, over that.
+VNDF_FN struct vndf_rgb vndf_impl_bsdf_metallic(struct vndf_impl_bsdf_view v, VNDF_REAL cosine) {
+    VNDF_REAL often = vndf_impl_bsdf_often(v);
+    struct vndf_rgb f = vndf_impl_bsdf_reflectance(v.b, cosine);
+#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
+    f = vndf_impl_bsdf_raised(v.b, f, v.o);
+#endif
+    return vndf_impl_rgb_scaled(f, VNDF_R(1.0) / (often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
+}
+
+#endif
+
 #if VNDF_DIELECTRIC
 
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_transmitted(struct vndf_impl_bsdf_view v, VNDF_REAL part) {
@@ -65,7 +91,8 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
     VNDF_REAL f = vndf_fresnel_dielectric(facet.cos_o, n.eta);
     VNDF_REAL passed = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f) * n.transmission;
     struct vndf_impl_odds odds = vndf_impl_odds_of(n, f);
-    VNDF_REAL share = s.crosses ? odds.refracted : metal + odds.reflected;
+    VNDF_REAL drawn = vndf_impl_bsdf_metal_drawn(v);
+    VNDF_REAL share = s.crosses ? odds.refracted : drawn + odds.reflected;
     VNDF_REAL rcp = VNDF_R(1.0) / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
     VNDF_REAL mirrored = vndf_impl_facets_weight(v.facets, raised);
     // Straight through is not masked.
@@ -77,8 +104,8 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
     struct vndf_rgb back = vndf_impl_bsdf_mirrored(n, f);
     back = vndf_impl_rgb_scaled(vndf_impl_rgb_scaled(back, rest), rcp);
 #if VNDF_CONDUCTOR
-    VNDF_REAL own = share == metal ? VNDF_R(1.0) : metal * rcp;
-    struct vndf_rgb metals = vndf_impl_bsdf_reflectance(v.b, facet.cos_o);
+    VNDF_REAL own = share == drawn ? VNDF_R(1.0) : drawn * rcp;
+    struct vndf_rgb metals = vndf_impl_bsdf_metallic(v, facet.cos_o);
     back = vndf_impl_rgb(VNDF_FMA(own, metals.r, back.r), VNDF_FMA(own, metals.g, back.g),
                          VNDF_FMA(own, metals.b, back.b));
 #endif
@@ -92,28 +119,11 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
 
 #else
 
-// The probability of the conductor, and what its weight is divided by for being drawn less often than its share.
-VNDF_FN VNDF_REAL vndf_impl_bsdf_often(struct vndf_impl_bsdf_view v) {
-#if VNDF_IMPL_KULLA_CONTY
-    return VNDF_R(1.0) - v.multiple.share;
-#else
-    (void)v;
-    return VNDF_R(1.0);
-#endif
-}
-
 VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_specular s;
-    VNDF_REAL often = vndf_impl_bsdf_often(v);
-    s.lobe.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_reflectance(v.b, vndf_impl_half_cosine(v.o, i)),
+    s.lobe.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_metallic(v, vndf_impl_half_cosine(v.o, i)),
                                          vndf_impl_facets_weight(v.facets, i));
-#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
-    s.lobe.weight = vndf_impl_bsdf_raised(v.b, s.lobe.weight, v.o);
-#endif
-    // Beside another lobe it is less often drawn and heavier.
-    s.lobe.weight =
-        vndf_impl_rgb_scaled(s.lobe.weight, VNDF_R(1.0) / (often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
-    s.lobe.share = vndf_impl_bsdf_metal(v.b) * often;
+    s.lobe.share = vndf_impl_bsdf_metal_drawn(v);
     s.lobe.pdf = vndf_impl_facets_pdf(v.facets, i);
     return s;
 }
@@ -123,11 +133,12 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
 #if VNDF_DIELECTRIC
 
 // Which lobe: by u_lobe, the conductor first, then reflection, refraction and what is diffuse. The end of u_lobe may be 1.
+// metal: the probability of that.
 VNDF_FN int vndf_impl_bsdf_chosen(struct vndf_impl_interface n, struct vndf_impl_odds odds, VNDF_REAL metal,
                                   VNDF_REAL u_lobe) {
     VNDF_REAL mirrored = metal + odds.reflected;
     int lobe = n.transmits ? VNDF_BSDF_TRANSMISSION : VNDF_BSDF_REFLECTION;
-#if VNDF_LAMBERT
+#if VNDF_IMPL_DIFFUSE
     VNDF_REAL specular = metal + n.specular;
     lobe = u_lobe < specular || specular >= VNDF_R(1.0) ? lobe : VNDF_BSDF_LAMBERT;
 #endif
@@ -140,7 +151,7 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bs
                                                              VNDF_REAL u_lobe) {
     struct vndf_impl_drawn d;
     struct vndf_impl_interface n = v.media;
-    VNDF_REAL metal = vndf_impl_bsdf_metal(v.b);
+    VNDF_REAL metal = vndf_impl_bsdf_metal_drawn(v);
     // Before the normal, where that does not decide.
     int early = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, VNDF_R(0.0)), metal, u_lobe);
     int mirrors = early != VNDF_BSDF_TRANSMISSION;
@@ -178,7 +189,7 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bs
 VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bsdf_view v, VNDF_REAL2 u,
                                                              VNDF_REAL u_lobe) {
     struct vndf_impl_drawn d;
-    VNDF_REAL share = vndf_impl_bsdf_metal(v.b) * vndf_impl_bsdf_often(v);
+    VNDF_REAL share = vndf_impl_bsdf_metal_drawn(v);
     d.w = vndf_impl_facets_sample(v.facets, u);
     // The end of u_lobe may be 1.
     d.lobe = u_lobe < share || share >= VNDF_R(1.0) ? VNDF_BSDF_CONDUCTOR : VNDF_BSDF_LAMBERT;

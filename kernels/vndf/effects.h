@@ -11,7 +11,7 @@
 //   VNDF_MASKING   of reflections: correlated (default), separable. Of refractions always separable
 //   VNDF_TRANSPORT of refractions: radiance (default), 1 / eta^2 times importance
 //   VNDF_ENERGY    what scatters between facets, of the conductor (energy.h): none (default), it is lost; turquin, single
-//                  scattering raised by it; kulla_conty, a diffuse lobe of its own. The last two have no VNDF_DIELECTRIC
+//                  scattering raised by it; kulla_conty, a diffuse lobe of its own. A dielectric loses it with all
 //
 // An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
 // not call for it have the same bits:
@@ -83,11 +83,7 @@
 #define VNDF_TRANSPORT radiance
 #endif
 #ifndef VNDF_DIELECTRIC
-#if VNDF_CAT(VNDF_ENERGY_IS_, VNDF_ENERGY) > 1
-#define VNDF_DIELECTRIC 0
-#else
 #define VNDF_DIELECTRIC 1
-#endif
 #endif
 #ifndef VNDF_SPECULAR
 #define VNDF_SPECULAR 1
@@ -255,11 +251,6 @@
 #error "clvndf: VNDF_NDF beckmann has VNDF_SAMPLING plain alone"
 #undef VNDF_SAMPLING
 #define VNDF_SAMPLING plain
-#endif
-#if VNDF_DIELECTRIC && !VNDF_CHOSEN(VNDF_ENERGY, none)
-#error "clvndf: VNDF_ENERGY turquin and kulla_conty have no VNDF_DIELECTRIC"
-#undef VNDF_DIELECTRIC
-#define VNDF_DIELECTRIC 0
 #endif
 #if !VNDF_CONDUCTOR && !VNDF_DIELECTRIC && !VNDF_LAMBERT
 #error "clvndf: VNDF_CONDUCTOR, VNDF_DIELECTRIC and VNDF_LAMBERT are 0: nothing is left of a material"

@@ -143,16 +143,30 @@ std::string not_vectorised_with(const Effects& material) {
 
 TEST_CASE("materials are vectorised across work-items on PoCL") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
-    for (const char* list :
-         {"all", "conductor", "lambert", "dielectric", "dielectric,back_facing,sampling=plain",
-          "conductor,dielectric,transport=importance", "dielectric,lambert,ndf=beckmann",
-          "all,fresnel=conductor,masking=separable", "all,sampling=conic,fresnel=f82",
-          "all,ndf=beckmann,fresnel=conductor", "all,energy=turquin",
-          "all,energy=kulla_conty,fresnel=conductor", "all,energy=kulla_conty,sampling=conic",
-          "all,energy=kulla_conty,sampling=conic,fresnel=conductor",
-          "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82", "lambert,rough_diffuse",
-          "lambert,coat", "conductor,coat", "dielectric,coat,ndf=beckmann", "dielectric,specular",
-          "dielectric,thin_walled,sampling=conic", "dielectric,lambert,specular,thin_walled,ndf=beckmann"})
+    for (const char* list : {"all",
+                             "conductor",
+                             "lambert",
+                             "dielectric",
+                             "dielectric,back_facing,sampling=plain",
+                             "conductor,dielectric,transport=importance",
+                             "dielectric,lambert,ndf=beckmann",
+                             "all,fresnel=conductor,masking=separable",
+                             "all,sampling=conic,fresnel=f82",
+                             "all,ndf=beckmann,fresnel=conductor",
+                             "all,energy=turquin",
+                             "all,energy=kulla_conty,fresnel=conductor",
+                             "all,energy=kulla_conty,sampling=conic",
+                             "all,energy=kulla_conty,sampling=conic,fresnel=conductor",
+                             "all,energy=kulla_conty,sampling=conic,masking=separable,fresnel=f82",
+                             "lambert,rough_diffuse",
+                             "lambert,coat",
+                             "conductor,coat",
+                             "dielectric,coat,ndf=beckmann",
+                             "dielectric,specular",
+                             "dielectric,thin_walled,sampling=conic",
+                             "dielectric,lambert,specular,thin_walled,ndf=beckmann",
+                             "conductor,dielectric,energy=kulla_conty",
+                             "conductor,dielectric,energy=turquin,ndf=beckmann"})
         CHECK(not_vectorised_with(parse_effects(list)) == "");
 }
 

@@ -61,9 +61,6 @@ def variants():
         if others > 1 and "--full" not in sys.argv:
             continue
         lobes = ["CONDUCTOR", "DIELECTRIC", "LAMBERT"]
-        if chosen["ENERGY"] != "none":  # of conductors alone
-            chosen["DIELECTRIC"] = 0
-            lobes.remove("DIELECTRIC")
         yield chosen
         for effect in effects():
             yield {**chosen, effect: 0}

@@ -166,7 +166,8 @@ TEST_CASE("with energy given back a white conductor loses no light") {
     for (const energy::Surface& s : surfaces) {
         const BsdfProgram tables = table_of(s);
         for (const char* model : {"turquin", "kulla_conty"}) {
-            const BsdfProgram program(switches(s) + " ENERGY=" + model + " LAMBERT=0 SHADING_NORMAL=0");
+            const BsdfProgram program(switches(s) + " ENERGY=" + model +
+                                      " LAMBERT=0 DIELECTRIC=0 SHADING_NORMAL=0");
             for (const double alpha : {.001, .03, .1, .3, 1., 2.})
                 for (const double cosine : {.02, .1, .4, .8, 1.}) {
                     const Point p{direction(cosine, .3), alpha, alpha};
@@ -282,6 +283,65 @@ TEST_CASE("the gap to the walk", "[.energy-gap]") {
         for (const char* model : {"none", "turquin", "kulla_conty"})
             fmt::print(" {:.3f}, {:.3f}, {:.3f} |", worst.at(model)[0], worst.at(model)[1],
                        worst.at(model)[2]);
+        fmt::print("\n");
+    }
+}
+
+namespace {
+
+// What glass reflects and what it lets through.
+struct Parts {
+    double reflected = 0, through = 0;
+};
+Parts parts_of(const Columns& out) {
+    Parts parts;
+    const double n = static_cast<double>(out[3].size());
+    for (std::size_t i = 0; i < out[3].size(); ++i)
+        (out[2][i] > 0 ? parts.reflected : parts.through) += out[3][i] / n;
+    return parts;
+}
+
+// How far both are from the walk's, at the worst of some directions; no model of energy gives anything back.
+Parts glass_gap(double alpha_x, double alpha_y, double eta, std::size_t count) {
+    static const BsdfProgram model("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance"),
+        walk("", {}, 0, runtime::Real::f32, "kernels/batch/walk.cl");
+    Parts worst;
+    for (const double cosine : {.1, .3, .6, 1.})
+        for (const double phi : {0., pi / 2}) {
+            const Point p{direction(cosine, phi), alpha_x, alpha_y};
+            Columns in = metal_rows(p, count, false), walked = metal_rows(p, count, true);
+            in[6 + material_parameter("metal")].assign(count, 0);
+            in[6 + material_parameter("ior")].assign(count, eta);
+            in[6 + material_parameter("thin_walled")].assign(count, 0);
+            walked[5 + material_parameter("first_r")].assign(count, eta);
+            const Parts found = parts_of(model.sample(in)),
+                        truth = parts_of(walk.run("vndf_batch_walk_dielectric_sample", walked, 7));
+            worst.reflected = std::max(worst.reflected, std::abs(found.reflected - truth.reflected));
+            worst.through = std::max(worst.through, std::abs(found.through - truth.through));
+        }
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("what rough glass loses beside the walk is what it is said to be") {
+    // Of the table of kernels/README.md.
+    const Parts smooth = glass_gap(.1, .1, 1.5, 1 << 16), rough = glass_gap(1, 1, 1.5, 1 << 16);
+    CHECK(std::abs(smooth.reflected - .026) < .006);
+    CHECK(std::abs(smooth.through - .054) < .006);
+    CHECK(std::abs(rough.reflected - .011) < .006);
+    CHECK(std::abs(rough.through - .570) < .006);
+}
+
+// By hand: the table of kernels/README.md.
+TEST_CASE("the gap of glass to the walk", "[.energy-gap]") {
+    fmt::print("| alpha | 1.33 | 1.5 | 2 | 1 / 1.5 |\n| --- | --- | --- | --- | --- |\n");
+    for (const auto& [x, y] : {std::pair{.1, .1}, {.3, .3}, {.5, .5}, {1., 1.}, {.4, .2}, {1., .25}}) {
+        fmt::print("| {}, {} |", x, y);
+        for (const double eta : {1.33, 1.5, 2., 1 / 1.5}) {
+            const Parts gap = glass_gap(x, y, eta, items_by_hand());
+            fmt::print(" {:.3f}, {:.3f} |", gap.reflected, gap.through);
+        }
         fmt::print("\n");
     }
 }

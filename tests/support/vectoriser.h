@@ -104,8 +104,7 @@ inline std::vector<Effects> materials_of_every_choice() {
                         Effects one =
                             parse_effects(list + ',' + model + ",fresnel=" + fresnel + ",masking=" + masking);
                         one.choices.at("energy") = energy;
-                        // The models of energy are a conductor's, and have no dielectric.
-                        if (energy != std::string("none")) one.on.at("dielectric") = false;
+                        // The models of energy are a conductor's.
                         if (energy != std::string("none") && !one.on.at("conductor")) continue;
                         if (seen.insert(one.macros()).second) all.push_back(one);
                     }
