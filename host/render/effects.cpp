@@ -38,9 +38,12 @@ struct Surveyed {
 };
 
 std::string named(const Scene& scene, std::size_t material) {
-    const bool has = material < scene.material_names.size() && !scene.material_names[material].empty();
-    return has ? fmt::format("material {} ({})", material, scene.material_names[material])
-               : fmt::format("material {}", material);
+    std::string name = material < scene.material_names.size() ? scene.material_names[material] : "";
+    // In one line, whatever a file calls it.
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+    return name.empty() ? fmt::format("material {}", material)
+                        : fmt::format("material {} ({})", material, name);
 }
 
 // "material 0 and 4 more" for those that call; empty if there is none.
