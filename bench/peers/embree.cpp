@@ -169,13 +169,18 @@ class Comparison {
         const auto count = static_cast<uint>(rays.count), stride = static_cast<uint>(rays.stride);
         const auto nodes = ours->upload(tree_.nodes), leaves = ours->upload(tree_.leaves),
                    path = ours->upload(rays.planes), hit = ours->buffer(8 * rays.stride),
-                   triangle = ours->buffer(4 * rays.stride);
+                   triangle = ours->buffer(4 * rays.stride), slot = ours->buffer(4 * rays.stride),
+                   vertices = ours->upload(render::vertex_table(scene_)),
+                   triangles = ours->upload(render::triangle_table(scene_)), none = ours->buffer(4);
+        const vndf_render_sizes sizes = render::sizes_of(scene_);
+        const uint first = 0, salt = 0;
         std::vector<uint> found(count), theirs(count);
         const Ratio ratio = compare(
             rounds_,
             [&] {
                 ours->launch(packet > 1 ? "packets" : "traverse", (count + packet - 1) / packet,
-                             {nodes, leaves, path, count, stride, hit, triangle});
+                             {nodes, leaves, &sizes, vertices, triangles, none, none, none, slot, first, salt,
+                              path, count, stride, hit, triangle});
                 ours->read(triangle, found.data(), 4 * rays.count);
             },
             [&] {
@@ -213,7 +218,7 @@ class Comparison {
             [&] {
                 const std::vector<std::uint32_t> sample = words.next();
                 const Tables tables{render::view_of(scene_.camera, settings.width, settings.height),
-                                    render::sky_of(scene_.sky),
+                                    render::sky_of(scene_, {}),
                                     render::sizes_of(scene_),
                                     vertices.data(),
                                     materials.data(),

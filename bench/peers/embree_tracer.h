@@ -29,17 +29,21 @@ inline void embree_path(RTCScene scene, const Tables& t, uint pixel, unsigned ma
         const RTCRayHit found = embree_hit(scene, embree_ray(path, path + VNDF_PATH_DX, 1, 0));
         triangle = found.hit.geomID == RTC_INVALID_GEOMETRY_ID ? VNDF_MISS : found.hit.primID;
         hit[VNDF_HIT_B1] = found.hit.u, hit[VNDF_HIT_B2] = found.hit.v;
-        vndf_render_leave(t.sky, path, &triangle, &slot, 1, 1, light);
+        vndf_render_leave(t.sky, nullptr, nullptr, path, &triangle, &slot, 1, 1, light);
         if (triangle == VNDF_MISS || bounce == max_bounces) break;
         const uint quad = VNDF_QUAD_BOUNCE * bounce;
-        vndf_render_surface(t.sizes, t.vertices, t.triangles, hit, &triangle, 1, 1, path, surface, &material);
-        vndf_render_lights(t.sky, t.words, VNDF_QUAD_LIGHT + quad, &slot, pixel, surface, 1, to);
-        vndf_render_connect(t.sizes, t.materials, &material, surface, path, 1, to);
+        // Without textures, and with no light but the sky: nothing is read of what they have.
+        vndf_render_surface(t.sizes, t.vertices, t.triangles, nullptr, nullptr, nullptr, hit, &triangle, 1, 1,
+                            path, surface, &material);
+        vndf_render_lights(t.sky, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, t.sizes,
+                           t.vertices, t.triangles, nullptr, nullptr, nullptr, t.materials, t.words,
+                           VNDF_QUAD_LIGHT + quad, 0, &slot, pixel, surface, path, 1, to);
+        vndf_render_connect(t.sizes, t.materials, &material, nullptr, surface, path, 1, to);
         const float* const arriving = to + VNDF_LIGHT_RED;
         if (carries(arriving) && !embree_occluded(scene, embree_ray(path, to, 1, 0)))
             for (int channel = 0; channel < 3; ++channel) light[channel] += arriving[channel];
-        vndf_render_scatter(t.sizes, t.materials, &material, surface, t.words, VNDF_QUAD_BSDF + quad, &slot,
-                            pixel, 1, path);
+        vndf_render_scatter(t.sizes, t.materials, &material, nullptr, surface, t.words, VNDF_QUAD_BSDF + quad,
+                            &slot, pixel, 1, path);
         vndf_render_survive(surface, t.words, VNDF_QUAD_BSDF + quad, &slot, pixel, 1, bounce >= 3, path);
     }
     for (int channel = 0; channel < 3; ++channel) rgb[channel] += light[channel];

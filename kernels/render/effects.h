@@ -1,43 +1,46 @@
-// The renderer's own switches (effects.def): all on, unless said otherwise. Without one its code is gone, and the images of scenes
+// The renderer's own switches (effects.def), each by itself or VNDF_RENDER_ALL: on, unless said otherwise. Without one its code is gone, and the images of scenes
 // that do not call for it keep their bits.
 #ifndef VNDF_RENDER_EFFECTS_H
 #define VNDF_RENDER_EFFECTS_H
 
+#ifndef VNDF_RENDER_ALL
+#define VNDF_RENDER_ALL 1
+#endif
 #ifndef VNDF_RENDER_ALPHA
-#define VNDF_RENDER_ALPHA 1
+#define VNDF_RENDER_ALPHA VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_TANGENT
-#define VNDF_RENDER_TANGENT 1
+#define VNDF_RENDER_TANGENT VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_NORMAL_MAP
-#define VNDF_RENDER_NORMAL_MAP 1
+#define VNDF_RENDER_NORMAL_MAP VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_VERTEX_COLOUR
-#define VNDF_RENDER_VERTEX_COLOUR 1
+#define VNDF_RENDER_VERTEX_COLOUR VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_TEXTURE
-#define VNDF_RENDER_TEXTURE 1
+#define VNDF_RENDER_TEXTURE VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_ROUGHNESS_TEXTURE
-#define VNDF_RENDER_ROUGHNESS_TEXTURE 1
+#define VNDF_RENDER_ROUGHNESS_TEXTURE VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_LAYER_TEXTURE
-#define VNDF_RENDER_LAYER_TEXTURE 1
+#define VNDF_RENDER_LAYER_TEXTURE VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_EMISSION
-#define VNDF_RENDER_EMISSION 1
+#define VNDF_RENDER_EMISSION VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_EMISSION_TEXTURE
-#define VNDF_RENDER_EMISSION_TEXTURE 1
+#define VNDF_RENDER_EMISSION_TEXTURE VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_LAMP
-#define VNDF_RENDER_LAMP 1
+#define VNDF_RENDER_LAMP VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_POINT_LIGHT
-#define VNDF_RENDER_POINT_LIGHT 1
+#define VNDF_RENDER_POINT_LIGHT VNDF_RENDER_ALL
 #endif
 #ifndef VNDF_RENDER_ENVIRONMENT
-#define VNDF_RENDER_ENVIRONMENT 1
+#define VNDF_RENDER_ENVIRONMENT VNDF_RENDER_ALL
 #endif
 
 // Lights at a distance, behind which nothing is in their way.
