@@ -388,7 +388,7 @@ TEST_CASE("pixels of every kind of PNG, and of JPEG") {
          png_file(2, 1, 4, PngColour::grey, {"\x1F"}),
          {rgba(17, 17, 17), rgba(255, 255, 255)}},
         {"grey", png_file(1, 2, 8, PngColour::grey, {"\x07", "\x09"}, gamma), {rgba(7, 7, 7), rgba(9, 9, 9)}},
-        {"grey of 16 bits", png_file(1, 1, 16, PngColour::grey, {"\x80\x80"}), {rgba(128, 128, 128)}},
+        {"grey of 16 bits", png_file(1, 1, 16, PngColour::grey, {std::string("\0\xFF", 2)}), {rgba(1, 1, 1)}},
         {"grey and alpha", png_file(1, 1, 8, PngColour::grey_alpha, {"\x07\x08"}), {rgba(7, 7, 7, 8)}},
         {"palette",
          png_file(2, 1, 8, PngColour::palette, {std::string("\0\1", 2)}, palette + alphas),
@@ -477,7 +477,7 @@ TEST_CASE("vertices that no triangle uses are left out, however many there are")
                                            {{"count", 3},
                                             {"indices", {{"bufferView", numbers}, {"componentType", 5125}}},
                                             {"values", {{"bufferView", places}}}}}});
-        file.attributes()["POSITION"] = places + 1;
+        file.attributes()["POSITION"] = file.attributes()["NORMAL"] = places + 1;
         file.primitive()["indices"] = numbers;
         const render::Scene scene = load(file).scene;
         CHECK(scene.vertices.size() == 3);
