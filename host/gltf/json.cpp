@@ -56,19 +56,21 @@ void count_extensions(const nlohmann::json& value, std::map<std::string, std::si
 
 }  // namespace
 
-std::string in_quotes(std::string_view text) {
+std::string printable(std::string_view text) {
     constexpr std::size_t longest = 60;
-    std::string result = "'";
+    std::string result;
     for (const char c : text.substr(0, longest))
         result += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+    if (text.size() <= longest) return result;
     // What a cut leaves of a character of several bytes goes as well.
-    if (text.size() > longest) {
-        std::size_t end = result.size();
-        while (end > 1 && (static_cast<unsigned char>(result[end - 1]) & 0xC0) == 0x80) --end;
-        if (end > 1 && static_cast<unsigned char>(result[end - 1]) >= 0xC0) result.resize(end - 1);
-        result += "...";
-    }
-    return result + "'";
+    std::size_t end = result.size();
+    while (end > 0 && (static_cast<unsigned char>(result[end - 1]) & 0xC0) == 0x80) --end;
+    if (end > 0 && static_cast<unsigned char>(result[end - 1]) >= 0xC0) result.resize(end - 1);
+    return result + "...";
+}
+
+std::string in_quotes(std::string_view text) {
+    return fmt::format("'{}'", printable(text));
 }
 
 const nlohmann::json& Item::value() const {

@@ -14,7 +14,8 @@
 
 namespace vndf::gltf {
 
-// Text of a file as part of a message: one line of printable characters, not long, between quotes.
+// Text of a file as part of a message: one line of printable characters, not long.
+std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);
 
 // A value, or the lack of one, and the way to it from the root. It lives as long as its Json. Every getter throws InputError,

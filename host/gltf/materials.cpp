@@ -32,7 +32,7 @@ std::uint32_t Materials::use(const Item& index) {
     if (number) {
         const Item material = items_.at(*number);
         dressing = dressing_of(material);
-        name = material["name"].text_or("");
+        name = printable(material["name"].text_or(""));
     }
     scene_.dressings.push_back(dressing);
     scene_.material_names.push_back(name);

@@ -10,6 +10,8 @@ constexpr double farthest = 1e15;                             // of a place
 constexpr double smallest_area = 1e-18, largest_area = 1e18;  // twice that; their squares are ordinary floats
 constexpr double thinnest = 1e-7;                             // sine of an angle that floats tell from none
 
+static_assert(3 * sizeof(render::Vertex) + sizeof(render::Triangle) == 232);  // as limits.h says
+
 class Placer {
   public:
     Placer(const Surface& surface, const Affine& to_world, std::uint32_t material, render::Scene& scene)

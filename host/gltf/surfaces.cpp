@@ -202,10 +202,10 @@ Surface surface_of(const Primitive& primitive, const render::Dressing& dressing,
         flat ? separated(surface.triangles) : compacted(surface.triangles, primitive.places->count());
     const render::TextureUse& normal_map = dressing.textures[static_cast<std::size_t>(render::Slot::normal)];
     std::array<bool, 2> sets = sets_of(dressing);
-    if (wanted) sets[normal_map.set] = true;
+    if (wanted && !given) sets[normal_map.set] = true;
     for (int set = 0; set < 2; ++set)
-        if (sets[set] && !primitive.uv[set] && !(given && set == 0))
-            warnings.add("meshes without the coordinates that a material's textures ask for, which are 0",
+        if (sets[set] && !primitive.uv[set])
+            warnings.add("meshes without the texture coordinates that their material asks for, which are 0",
                          primitive.item.place());
     surface.vertices.reserve(surface.sources.size());
     for (const std::uint32_t i : surface.sources)

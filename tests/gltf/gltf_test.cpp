@@ -303,7 +303,7 @@ TEST_CASE("a material says all that it can") {
     CHECK(!m.unlit);
     for (const render::TextureUse& use : scene.dressings[0].textures) CHECK(use.texture == 0);
     CHECK(scene.bitmaps.at(0).texels == std::vector<std::uint32_t>{rgba(16, 32, 48)});
-    CHECK(scene.material_names == std::vector<std::string>{"all"});
+    CHECK(scene.material_names == std::vector<std::string>{"all?of it"});
     CHECK(scene.materials[0] == render::material_of(m));
 }
 
@@ -584,6 +584,10 @@ TEST_CASE("URIs are decoded, or refused") {
     CHECK(gltf::base64_decoded("Zm9vYmE=") == "fooba");
     CHECK(gltf::base64_decoded("") == "");
     for (const char* wrong : {"Z", "Zm9v Yg", "Zm9vYg===", "Z*=="}) CHECK(!gltf::base64_decoded(wrong));
+    // Names from a file in a message are short lines of whole characters.
+    const std::string long_name = std::string(59, 'a') + "\xC3\xA9";
+    CHECK(gltf::printable(long_name) == std::string(59, 'a') + "...");
+    CHECK(gltf::printable("a\x1B\n\x7F\xC3\xA9") == "a???\xC3\xA9");
     CHECK(gltf::has_scheme("http://x"));
     CHECK(!gltf::has_scheme("a/b:c"));
 }

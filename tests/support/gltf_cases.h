@@ -1,8 +1,9 @@
 // Small glTF files, each with what must come of it: for tests, and as the fuzzer's seeds.
 #pragma once
 
-#include <functional>
+#include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "support/gltf_file.h"
@@ -56,7 +57,7 @@ inline GltfFile rich_file() {
     GltfFile file = mapped_file();
     const nlohmann::json texture = {{"index", file.texture(small_png())}};
     nlohmann::json& material = file.material();
-    material = {{"name", "all"},
+    material = {{"name", "all\nof it"},
                 {"pbrMetallicRoughness",
                  {{"baseColorFactor", {0.5, 0.6, 0.7, 0.8}},
                   {"metallicFactor", 0.25},
@@ -367,7 +368,7 @@ inline std::vector<GltfCase> defects() {
             file.attributes().erase("TEXCOORD_0");
             return file;
         }(),
-        "", "without the coordinates");
+        "", "without the texture coordinates");
     add("sampler-wrap",
         edited("/samplers", {{{"wrapS", 1}}},
                [] {
