@@ -12,6 +12,7 @@ project=$1 build=$2 runs=${3-1000000}
 command -v clang++ >/dev/null || { echo "fuzz.sh: no clang++"; exit 77; }
 
 longest=16384
+mkdir -p "$build"
 cmake -S "$project" -B "$build" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCLVNDF_FUZZ=ON >"$build.log" 2>&1 ||
     { cat "$build.log"; exit 1; }
 cmake --build "$build" --target gltf_fuzz gltf_seeds -j "$(nproc)" >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }

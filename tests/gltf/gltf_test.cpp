@@ -437,6 +437,20 @@ TEST_CASE("tangents are made where the normal map has none, and mirrored coordin
     check_near(corner(turned, 1, 0).tangent, {0, -1, 0, 1});
 }
 
+TEST_CASE("vertices in a mirror's line are there once for each side") {
+    if (!decodes_images) VNDF_SKIP(no_decoder);
+    const render::Scene scene = load(grid_file()).scene;
+    CHECK(scene.vertices.size() == 9 + 3);
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+        const bool left =
+            corner(scene, t, 0).place[0] + corner(scene, t, 1).place[0] + corner(scene, t, 2).place[0] < 3;
+        for (int k = 0; k < 3; ++k)
+            CHECK(corner(scene, t, k).tangent ==
+                  std::array<float, 4>{left ? -1.0f : 1.0f, 0, 0, left ? -1.0f : 1.0f});
+    }
+    CHECK(corner(scene, 0, 1).colour == std::array<float, 4>{0.5f, 0, 0.5f, 1});
+}
+
 TEST_CASE("a tangent is the mean by angles of the triangles around") {
     if (!decodes_images) VNDF_SKIP(no_decoder);
     // A fan about the origin whose coordinates are sheared in the second triangle: tangents along x and along (1, 1).

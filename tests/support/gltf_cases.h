@@ -169,11 +169,44 @@ inline GltfFile skinned_file() {
     return file;
 }
 
+// Three by three vertices under a normal map whose coordinates are mirrored in the middle column.
+inline GltfFile grid_file() {
+    GltfFile file = triangle_file();
+    std::vector<float> places, normals, coordinates, colours, tangents;
+    std::vector<std::uint32_t> indices;
+    for (const std::uint32_t row : {0u, 1u, 2u})
+        for (const std::uint32_t column : {0u, 1u, 2u}) {
+            const auto x = static_cast<float>(column), y = static_cast<float>(row);
+            places.insert(places.end(), {x, y, 0.1f * x * y});
+            normals.insert(normals.end(), {0, 0, 1});
+            coordinates.insert(coordinates.end(), {std::abs(x - 1), 1 - y / 2});
+            colours.insert(colours.end(), {x / 2, y / 2, 0.5f, 1});
+            tangents.insert(tangents.end(), {1, 0, 0, 1});
+            if (row == 2 || column == 2) continue;
+            const std::uint32_t a = 3 * row + column;
+            indices.insert(indices.end(), {a, a + 1, a + 4, a, a + 4, a + 3});
+        }
+    file.attributes() = {{"POSITION", file.accessor(places, "VEC3")},
+                         {"NORMAL", file.accessor(normals, "VEC3")},
+                         {"TEXCOORD_0", file.accessor(coordinates, "VEC2")},
+                         {"COLOR_0", file.accessor(colours, "VEC4")}};
+    file.accessor(tangents, "VEC4");  // for whom wants them
+    file.primitive()["indices"] = file.accessor(indices, "SCALAR");
+    file.material()["normalTexture"]["index"] = file.texture(small_png());
+    file.json["textures"][0]["sampler"] = 0;
+    file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9987}}};
+    return file;
+}
+
 inline std::vector<GltfCase> sound_cases() {
     GltfFile chunked = busy_file();
     std::string more = chunked.glb() + little_endian(4) + "ODD!abcd";
     more.replace(8, 4, little_endian(more.size()));
-    return {{"triangle.gltf", triangle_file().gltf(), "", ""},
+    GltfFile given = grid_file();
+    given.attributes()["TANGENT"] = 5;
+    return {{"grid.glb", grid_file().glb(), "", ""},
+            {"given.glb", given.glb(), "", ""},
+            {"triangle.gltf", triangle_file().gltf(), "", ""},
             {"triangle.glb", triangle_file().glb(), "", ""},
             {"more.glb", more, "", ""},
             {"rich.glb", rich_file().glb(), "", ""},
