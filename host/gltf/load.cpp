@@ -119,6 +119,19 @@ std::size_t count_triangles(const Item& root, const std::vector<std::vector<Prim
     return count;
 }
 
+void place_everywhere(const Primitive& primitive, const Surface& surface,
+                      const std::vector<Instance>& instances, Skins& skins, std::uint32_t material,
+                      render::Scene& scene, Dropped& dropped, Warnings& warnings) {
+    for (const auto& [to_world, skin] : instances) {
+        dropped.without_area += surface.dropped.without_area;
+        dropped.out_of_range += surface.dropped.out_of_range;
+        if (skin && !primitive.joints.empty())
+            place(posed(surface, primitive, skins.joints(skin), warnings), {}, material, scene, dropped);
+        else
+            place(surface, to_world, material, scene, dropped);
+    }
+}
+
 }  // namespace
 
 Loaded load(const std::filesystem::path& file, const std::string& camera, const Limits& limits) {
@@ -160,16 +173,7 @@ Loaded load(const std::string& name, std::string_view bytes, const Beside& besid
             if (primitive.triangle_count() == 0) continue;
             const std::uint32_t material = materials.use(primitive.item["material"]);
             const Surface surface = surface_of(primitive, scene.dressings[material], warnings);
-            dropped.without_area += surface.dropped.without_area * instances[m].size();
-            dropped.out_of_range += surface.dropped.out_of_range * instances[m].size();
-            for (const auto& [to_world, skin] : instances[m]) {
-                const bool moved = skin && !primitive.joints.empty();
-                if (moved)
-                    place(posed(surface, primitive, skins.joints(skin), warnings), {}, material, scene,
-                          dropped);
-                else
-                    place(surface, to_world, material, scene, dropped);
-            }
+            place_everywhere(primitive, surface, instances[m], skins, material, scene, dropped, warnings);
         }
     }
     warnings.add("triangles without an area that floats can square, dropped", "", dropped.without_area);
