@@ -4,11 +4,16 @@
 #   fuzz.sh PROJECT BUILD [RUNS]
 #
 # BUILD is a folder of its own, kept with what was found so far. The seeds are the tests' small files and, where CLVNDF_SCENES
-# names a folder, the small ones of its scenes. Exit status: 0 nothing was found, 77 no clang++, others: something was.
+# names a folder, the small ones of its scenes. Exit status: 0 nothing was found, 2 wrong arguments, 77 no clang++, others: something was.
 set -eu
 
-[ $# = 2 ] || [ $# = 3 ] || { echo "usage: fuzz.sh PROJECT BUILD [RUNS]" >&2; exit 2; }
+cannot() {
+    echo "fuzz.sh: $*" >&2
+    exit 2
+}
+[ $# = 2 ] || [ $# = 3 ] || cannot "usage: fuzz.sh PROJECT BUILD [RUNS]"
 project=$1 build=$2 runs=${3-1000000}
+[ -f "$project/tests/gltf/fuzz/gltf_fuzz.cpp" ] || cannot "$project is not the source folder"
 command -v clang++ >/dev/null || { echo "fuzz.sh: no clang++"; exit 77; }
 
 longest=16384

@@ -37,6 +37,8 @@ rm "$empty/clvndf"
 cannot "no $empty/clvndf: build it first" "$tests/packages.sh" "$project" "$empty" "$empty/work"
 cannot "no $empty/clvndf: build it first" "$tests/rusticl.sh" "$project" "$empty"
 cannot "no function nosuch" "$tests/rusticl.sh" "$project" "$build" nosuch
+cannot "usage: fuzz.sh" "$tests/fuzz.sh" "$project"
+cannot "$empty is not the source folder" "$tests/fuzz.sh" "$empty" "$empty/work"
 cannot "usage: fast_math.sh" "$tests/fast_math.sh" --quick
 cannot "$empty is not the source folder" "$tests/fast_math.sh" "$empty" "$build" "$empty/work"
 cannot "no $empty/host/libclvndf_host.a: build it first" "$tests/fast_math.sh" "$project" "$empty" "$empty/work"
