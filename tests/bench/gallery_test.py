@@ -54,6 +54,7 @@ def main():
         page = (folder / "out/index.html").read_text("utf-8")
         expect(os.listdir(folder / "out") == ["index.html"], "more than the page was written")
         expect(page.count("<article") == 2 and "a&amp;b.gltf" in page and "below/two.gltf" in page, "scenes are missing")
+        expect("a&b" not in page, "a name is taken for HTML")
         images = re.findall(r"src='data:image/png;base64,([^']*)'", page)
         expect(len(images) == 2 and all(base64.b64decode(i)[:4] == b"\x89PNG" for i in images), "images are missing")
         expect(not re.search(r"(src|href)=(?!'data:image/png|'#scene)", page), "the page needs another file")
