@@ -11,6 +11,7 @@
 
 #include "error.h"
 #include "parallel.h"
+#include "render/alias.h"
 
 namespace vndf::render {
 namespace {
@@ -163,52 +164,6 @@ std::vector<double> weights_of(const Environment& environment) {
     return weights;
 }
 
-// Walker's tables after Vose, in whole shares of 2^-24, as fine as random numbers are: cells are drawn exactly with
-// the density that is stored, and none with a weight above 0 never. Where all weights are 0 they are even.
-// Source: Vose, A Linear Algorithm for Generating Random Numbers with a Given Distribution, 1991.
-void set_tables(std::vector<double> weights, Environment& environment) {
-    constexpr std::int64_t one = 1 << 24;
-    const std::size_t n = weights.size();
-    double total = 0;
-    std::int64_t positive = 0;
-    for (const double w : weights) total += w, positive += w > 0;
-    if (positive == 0) return set_tables(std::vector<double>(n, 1), environment);
-
-    // One share for each that has any, of the others as many as its weight calls for.
-    std::vector<std::int64_t> shares(n);
-    const auto others = static_cast<double>(static_cast<std::int64_t>(n) * one - positive);
-    double sum = 0;
-    std::int64_t given = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        sum += weights[i];
-        const auto until = static_cast<std::int64_t>(std::min(sum / total, 1.0) * others);
-        shares[i] = (weights[i] > 0) + until - given;
-        given = until;
-    }
-    // What rounding left.
-    *std::max_element(shares.begin(), shares.end()) += static_cast<std::int64_t>(others) - given;
-
-    environment.pdf.resize(n), environment.keep.resize(n), environment.other.resize(n);
-    std::vector<std::uint32_t> small, large;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        environment.pdf[i] = static_cast<float>(static_cast<double>(shares[i]) / one / (4 * pi));
-        environment.other[i] = i;
-        (shares[i] < one ? small : large).push_back(i);
-    }
-    // What is left is as much as the cells left have on average: beside one with less there is one with more.
-    while (!small.empty()) {
-        const std::uint32_t cell = small.back(), from = large.back();
-        small.pop_back();
-        environment.keep[cell] = static_cast<float>(shares[cell]) / one;
-        environment.other[cell] = from;
-        shares[from] -= one - shares[cell];
-        if (shares[from] >= one) continue;
-        large.pop_back();
-        small.push_back(from);
-    }
-    for (const std::uint32_t cell : large) environment.keep[cell] = 1;
-}
-
 }  // namespace
 
 Environment environment_of(const LatLong& image, float rotation_degrees) {
@@ -226,7 +181,11 @@ Environment environment_of(const LatLong& image, float rotation_degrees) {
             }
     });
     for (std::size_t c = 0; c < 3; ++c) fill_border(&environment.radiance[c * n * n], side);
-    set_tables(weights_of(environment), environment);
+    Alias alias = alias_of(weights_of(environment));
+    environment.keep = std::move(alias.keep);
+    environment.other = std::move(alias.other);
+    for (const double chance : alias.chance)
+        environment.pdf.push_back(static_cast<float>(chance * side * side / (4 * pi)));
     return environment;
 }
 

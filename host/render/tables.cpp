@@ -186,8 +186,6 @@ Lamps lamps_of(const Scene& scene) {
         powers.push_back(power);
     }
     if (numbers.empty()) return lamps;
-    double total = 0;
-    for (const double power : powers) total += power;
     const Alias alias = alias_of(powers);
     lamps.count = static_cast<std::uint32_t>(numbers.size());
     lamps.planes = alias.keep;
@@ -195,8 +193,8 @@ Lamps lamps_of(const Scene& scene) {
     lamps.numbers.insert(lamps.numbers.end(), numbers.begin(), numbers.end());
     lamps.densities.assign(scene.triangles.size(), 0.0f);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        lamps.planes.push_back(static_cast<float>(2 * powers[i] / total));
-        lamps.densities[numbers[i]] = static_cast<float>(powers[i] / total / areas[i]);
+        lamps.planes.push_back(static_cast<float>(2 * alias.chance[i]));
+        lamps.densities[numbers[i]] = static_cast<float>(alias.chance[i] / areas[i]);
     }
     return lamps;
 }
@@ -207,11 +205,6 @@ std::vector<float> point_table(const Scene& scene) {
     std::vector<double> weights;
     for (const PunctualLight& l : lights)
         weights.push_back(l.intensity * luminance({l.colour[0], l.colour[1], l.colour[2]}));
-    double total = 0;
-    for (const double weight : weights) total += weight;
-    // All of them dark: one as good as another.
-    if (!(total > 0))
-        std::fill(weights.begin(), weights.end(), 1.0), total = static_cast<double>(lights.size());
     const Alias alias = alias_of(weights);
     std::size_t i = 0;
     return planes_of<float>(VNDF_POINT_PLANES, lights, [&](const PunctualLight& l) {
@@ -224,7 +217,7 @@ std::vector<float> point_table(const Scene& scene) {
         row.insert(row.end(), l.direction.begin(), l.direction.end());
         for (const float c : l.colour) row.push_back(c * l.intensity);
         row.insert(row.end(), {static_cast<float>(slope), static_cast<float>(offset),
-                               static_cast<float>(weights[i] / total)});
+                               static_cast<float>(alias.chance[i])});
         ++i;
         return row;
     });
