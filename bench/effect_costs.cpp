@@ -121,9 +121,8 @@ std::vector<EffectCost> effect_programs() {
     return all;
 }
 
-std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetitions,
-                                     const std::function<void(double done)>& progress) {
-    std::vector<EffectCost> costs = effect_programs();
+std::vector<EffectCost> effect_costs(const runtime::Device& device, std::vector<EffectCost> costs,
+                                     int repetitions, const std::function<void(double done)>& progress) {
     std::vector<Running> all;
     std::vector<cl::Buffer> buffers;
     for (EffectCost& cost : costs) {

@@ -29,8 +29,8 @@ struct EffectCost {
 std::vector<EffectCost> effect_programs();
 
 // Measured: all programs in turn, so that a disturbance meets all alike.
-std::vector<EffectCost> effect_costs(const runtime::Device& device, int repetitions,
-                                     const std::function<void(double done)>& progress);
+std::vector<EffectCost> effect_costs(const runtime::Device& device, std::vector<EffectCost> programs,
+                                     int repetitions, const std::function<void(double done)>& progress);
 
 // The same as JSON, with this context.
 std::string effects_json(const std::vector<EffectCost>& costs,

@@ -134,14 +134,17 @@ for function in $all; do
 done
 # Materials with some of their effects.
 one vndf_bsdf_sample --effects conductor,tint,fresnel=f82
-one vndf_bsdf_sample --effects dielectric,back_facing
+one vndf_bsdf_sample --effects dielectric,specular,thin_walled,lambert,rough_diffuse,coat,back_facing
 if [ $step = 1 ]; then
     for effects in all lambert conductor dielectric,lambert,sampling=plain conductor,lambert,sampling=conic,fresnel=conductor \
-        all,ndf=beckmann,masking=separable,fresnel=none; do
+        all,ndf=beckmann,masking=separable,fresnel=none dielectric,back_facing lambert,rough_diffuse conductor,coat lambert,coat \
+        dielectric,specular dielectric,thin_walled,sampling=conic all,energy=turquin all,energy=kulla_conty,ndf=beckmann \
+        conductor,energy=kulla_conty; do
         for function in vndf_bsdf_sample vndf_bsdf_eval vndf_bsdf_pdf vndf_bsdf_eval_pdf; do
             one $function --effects $effects
         done
     done
+    one vndf_bsdf_transmittance --effects dielectric,absorption
 fi
 [ $compilations -ge 50 ] || failed "too few compilations to believe it: $compilations"
 

@@ -273,8 +273,23 @@ void print_effects(const std::vector<bench::EffectCost>& costs) {
             cost.eval_pdf_ns, in_words(cost.eval_pdf), cost.build_s);
 }
 
+// The programs of --effects, or those with a text in their names.
+std::vector<bench::EffectCost> selected_programs(const std::string& only) {
+    std::vector<bench::EffectCost> programs = bench::effect_programs();
+    std::erase_if(programs, [&](const bench::EffectCost& cost) {
+        return cost.program.find(only) == std::string::npos;
+    });
+    if (programs.empty())
+        throw InputError(fmt::format(
+            "--only '{}': no program of --effects has it in its name; all, 'all without tint', 'conductor "
+            "alone' and 'conductor and tint' are some",
+            only));
+    return programs;
+}
+
 // What each effect of a material costs, as a table.
 void run_effects(const Bench& options, Common& common) {
+    const std::vector<bench::EffectCost> programs = selected_programs(options.only);
     const bool table = !is_standard_output(options.json);
     if (table) require_output();
     std::optional<OutputFile> json;
@@ -285,7 +300,7 @@ void run_effects(const Bench& options, Common& common) {
     const runtime::Device device = target.choose(common);
     const Progress progress(common.quiet);
     const std::vector<bench::EffectCost> costs =
-        bench::effect_costs(device, options.repetitions == 0 ? 15 : options.repetitions,
+        bench::effect_costs(device, programs, options.repetitions == 0 ? 15 : options.repetitions,
                             [&](double done) { progress("building and measuring", done); });
     progress.clear();
     if (table) print_effects(costs);
@@ -368,7 +383,9 @@ void add_bench(CLI::App& app, Common& common) {
     command->add_option(
         "--only", options->only,
         "only functions whose name contains this, or matches it with * and ?; after a slash, only "
-        "forms\nand types that contain what follows: dupuy2023/strict/float");
+        "forms\nand types that contain what follows: dupuy2023/strict/float; of --effects only programs "
+        "whose "
+        "name\ncontains this");
     add_number(*command, "--repetitions", options->repetitions, 3, 1000, "how often each entry is measured")
         ->default_str("15, quick 9");
     CLI::Option* quick = command->add_flag("--quick", options->quick,

@@ -23,6 +23,35 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_smooth_reflectance(VNDF_REAL cosine, VNDF_REAL 
     return cosine > VNDF_R(0.0) || eta == VNDF_R(1.0) ? f : VNDF_R(1.0);
 }
 
+// What a diffuse surface under it makes of it. q / (1 + q) is what it reflects of diffuse light inwards by its index.
+struct vndf_impl_inwards {
+    VNDF_REAL again;  // the same of what it reflects in truth
+    VNDF_REAL kept;   // 1 less that, over 1 less what it is by the index
+    VNDF_REAL out;    // 1 + q times the part of diffuse light that it lets in
+    VNDF_REAL bends;  // the index by which it bends
+};
+VNDF_FN struct vndf_impl_inwards vndf_impl_inwards_of(struct vndf_impl_interface n, VNDF_REAL q,
+                                                      VNDF_REAL dense) {
+    struct vndf_impl_inwards w;
+#if VNDF_SPECULAR
+    VNDF_REAL strength = n.gloss.strength, less = VNDF_R(1.0) - strength, most = n.gloss.most;
+    w.kept = VNDF_FMA(less, q, VNDF_FMA(-strength, most, VNDF_R(1.0)));
+    w.out = VNDF_FMA(less, VNDF_R(1.0) + q, strength * (VNDF_R(1.0) - most) * (dense * dense));
+    // Nothing gets in where all is reflected.
+    w.again = strength * (q + most) / (w.kept > VNDF_R(0.0) ? w.kept : VNDF_R(1.0));
+    w.out = w.out > VNDF_R(0.0) ? w.out : VNDF_R(1.0);
+    // A weaker one bends less.
+    w.bends = VNDF_FMA(strength, dense - VNDF_R(1.0), VNDF_R(1.0));
+#else
+    (void)n;
+    w.again = q;
+    w.kept = VNDF_R(1.0);
+    w.out = dense * dense;
+    w.bends = dense;
+#endif
+    return w;
+}
+
 // The light that gets in at wo leaves diffusely, in part; what is reflected inwards meets the surface again, and so on. White
 // paint reflects it all.
 // Source: Jakob, Mitsuba renderer, 2010, the smooth plastic: T(wo) T(wi) albedo / (pi eta^2 (1 - albedo R)), T = 1 - F(cos) and
@@ -38,30 +67,22 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_
               lets_in = vndf_impl_interface_passes(n, vndf_impl_interface_likely(n), f_o);
     VNDF_REAL f_i = vndf_impl_bsdf_smooth_reflectance(i.z, n.eta),
               lets_out = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f_i);
-    VNDF_REAL again = q, out = dense * dense, once = lets_out, bends = dense;
+    struct vndf_impl_inwards w = vndf_impl_inwards_of(n, q, dense);
 #if VNDF_SPECULAR
-    struct vndf_impl_gloss_inwards inwards = vndf_impl_gloss_inwards_of(n.gloss, q, dense);
-    again = inwards.again;
-    out = inwards.out;
-    // More gets in than it is drawn for under a dark colour.
+    // Under a dark colour more gets in than it is drawn for.
     lets_out *=
         vndf_impl_interface_passes(n, n.gloss.most, f_o) / (lets_in > VNDF_R(0.0) ? lets_in : VNDF_R(1.0));
-    once = lets_out * inwards.kept;
-    bends = VNDF_FMA(n.gloss.strength, x, VNDF_R(1.0));
 #endif
-    VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / out);
+    VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / w.out);
     d.share = (VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b)) * (VNDF_R(1.0) - n.transmission) * lets_in;
-    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, again, VNDF_R(1.0));
-    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, again, VNDF_R(1.0));
-    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, again, VNDF_R(1.0));
+    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, w.again, VNDF_R(1.0));
+    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, w.again, VNDF_R(1.0));
+    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, w.again, VNDF_R(1.0));
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
 #if VNDF_ROUGH_DIFFUSE
     struct vndf_impl_rough_diffuse rough =
-        vndf_impl_rough_diffuse_under(v.o, i, bends, v.b.diffuse_roughness);
-    d.weight = vndf_impl_rgb_rougher(d.weight, rough, once / out, v.b.albedo);
-#else
-    (void)once;
-    (void)bends;
+        vndf_impl_rough_diffuse_under(v.o, i, w.bends, v.b.diffuse_roughness);
+    d.weight = vndf_impl_rgb_rougher(d.weight, rough, lets_out * w.kept / w.out, v.b.albedo);
 #endif
     d.pdf = vndf_lambert_pdf_wi(i);
     return d;

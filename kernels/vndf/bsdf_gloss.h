@@ -47,25 +47,6 @@ VNDF_FN VNDF_REAL vndf_impl_gloss_passes(struct vndf_impl_gloss g, VNDF_REAL exc
         VNDF_FMA(g.strength * (VNDF_R(1.0) - excess), VNDF_R(1.0) - f, VNDF_R(1.0) - g.strength));
 }
 
-// What a diffuse surface under the interface makes of it. With R = q / (1 + q) the interface reflects of diffuse light inwards by
-// its index, and lets in the part (1 - R) dense^2; with the changes R' = q' / (1 + q') and out.
-struct vndf_impl_gloss_inwards {
-    VNDF_REAL again;  // q'
-    VNDF_REAL kept;   // (1 - R') (1 + q)
-    VNDF_REAL out;    // (1 + q) times that part
-};
-VNDF_FN struct vndf_impl_gloss_inwards vndf_impl_gloss_inwards_of(struct vndf_impl_gloss g, VNDF_REAL q,
-                                                                  VNDF_REAL dense) {
-    struct vndf_impl_gloss_inwards w;
-    VNDF_REAL less = VNDF_R(1.0) - g.strength;
-    w.kept = VNDF_FMA(less, q, VNDF_FMA(-g.strength, g.most, VNDF_R(1.0)));
-    w.out = VNDF_FMA(less, VNDF_R(1.0) + q, g.strength * (VNDF_R(1.0) - g.most) * (dense * dense));
-    // Nothing gets in where all is reflected.
-    w.again = g.strength * (q + g.most) / (w.kept > VNDF_R(0.0) ? w.kept : VNDF_R(1.0));
-    w.out = w.out > VNDF_R(0.0) ? w.out : VNDF_R(1.0);
-    return w;
-}
-
 VNDF_END
 
 #endif
