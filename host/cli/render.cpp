@@ -31,7 +31,7 @@ struct Render {
     std::string output = "render.png", size = "960x340", math = "strict", device, effects = "auto";
     SceneOptions scene;
     render::Choices choices;
-    CLI::Option* sampler = nullptr;
+    CLI::Option *sampler = nullptr, *orbs = nullptr;
     bool explain = false, effect_costs = false;
     std::string checkpoint, report;  // files
     double stops = 0;
@@ -180,6 +180,16 @@ render::Settings settings_of(const Render& r, const Common& common, const render
     return settings;
 }
 
+// What CLI11 would tell less well of the word SCENE.
+void require_consistent(const Render& r) {
+    const auto stray = [](const char* option, const char* without) {
+        throw InputError(fmt::format("{}: of no use {}", option, without));
+    };
+    if (!r.scene.file.empty() && r.orbs->count() > 0) stray("--orbs", "beside a SCENE");
+    if (r.scene.file.empty() && !r.scene.camera.empty()) stray("--camera", "without a SCENE");
+    if (r.scene.environment.empty() && r.scene.rotation != 0) stray("--env-rotation", "without --env");
+}
+
 void warn(const ShownScene& shown, const Common& common) {
     if (common.quiet) return;
     for (const auto& [warning, count] : shown.warnings)
@@ -223,6 +233,7 @@ void say_result(const Reported& r, const std::string& output, Common& common) {
 void run(const Render& r, Common& common) {
     const Clock::time_point start = Clock::now();
     const auto since = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    require_consistent(r);
     render::require_image_name(r.output);
     require_distinct({{"--output", r.output}, {"--report", r.report}, {"--checkpoint", r.checkpoint}},
                      {{"SCENE", r.scene.file}, {"--env", r.scene.environment}});
@@ -329,13 +340,11 @@ void add_render(CLI::App& app, Common& common) {
     add_number(*command, "--exposure", r->stops, -100.0, 100.0,
                "of a PNG: times 2 to this; without it 0, of a file's scene what fits")
         ->each([r](const std::string&) { r->exposure = r->stops; });
-    CLI::Option* const file = command->add_option("SCENE", r->scene.file, "a scene: .gltf or .glb");
-    command->add_option("--orbs", r->scene.orbs, "without a file: what five orbs are of")
-        ->check(CLI::IsMember(render::orb_kinds()))
-        ->capture_default_str()
-        ->excludes(file);
-    command->add_option("--camera", r->scene.camera, "of the file: a name or a number; the first without it")
-        ->needs(file);
+    command->add_option("SCENE", r->scene.file, "a scene: .gltf or .glb");
+    r->orbs = command->add_option("--orbs", r->scene.orbs, "without a file: what five orbs are of")
+                  ->check(CLI::IsMember(render::orb_kinds()))
+                  ->capture_default_str();
+    command->add_option("--camera", r->scene.camera, "of the file: a name or a number; the first without it");
     CLI::Option* const sky =
         choice("--sky", r->scene.sky,
                "day: blue, with a sun; none: dark; to compare with others, white: as bright everywhere, and "
@@ -347,8 +356,7 @@ void add_render(CLI::App& app, Common& common) {
                                                       "in its place, an image from all around: .exr or .hdr")
                                          ->excludes(sky);
     add_number(*command, "--env-rotation", r->scene.rotation, -3600.0f, 3600.0f,
-               "degrees by which it is turned, counterclockwise seen from above")
-        ->needs(environment);
+               "degrees by which it is turned, counterclockwise seen from above");
     add_device(*command, r->device);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }

@@ -9,6 +9,7 @@
 #include "error.h"
 #include "runtime/devices.h"
 #include "support/command.h"
+#include "support/gltf_cases.h"
 #include "support/options.h"
 
 using namespace vndf;
@@ -87,7 +88,9 @@ TEST_CASE("every command runs to its end with every option") {
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
         "separable --energy kulla_conty --random philox "
         "--math builtin --orbs anisotropy --sky white --effects all --device \"$device\"",
-        "render --output a.exr --size 8x4 --time 0.01 --explain",
+        "render plain.gltf --output a.exr --size 8x4 --time 0.01 --explain --effect-costs",
+        "render busy.glb --output c.png --size 8x4 --spp 1 --camera front --env env.hdr --env-rotation 90 "
+        "--checkpoint at --report render.json --exposure -1",
         "render --output b.png --size 8x4 --target-error 0.5",
         "policies --help",
         "policies --only vndf_reflect --quick --flags cycles",
@@ -106,6 +109,10 @@ TEST_CASE("every command runs to its end with every option") {
     }
     const Folder folder;
     folder.write("in", reflect_row);
+    folder.write("plain.gltf", triangle_file().gltf());
+    folder.write("busy.glb", busy_file().glb());
+    folder.write("env.hdr",
+                 "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x80\x80\x80\x80\x80");
     std::set<std::string> reached;
     for (const std::string& line : lines) {
         CAPTURE(line);
