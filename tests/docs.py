@@ -30,6 +30,7 @@ EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
 REFRACTION = ROOT / "bench/results/refraction.json"
 MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
+MITSUBA_GLTF = ROOT / "bench/results/peers-mitsuba-gltf-3.9.json"
 
 
 # --- The registry ---
@@ -288,6 +289,15 @@ def mitsuba_render():
         ", ".join(f"{x:.1f}" for x in sky["fastest, Msamples/s"].values()) for sky in skies)
 
 
+def mitsuba_gltf():
+    for name, scene in json.loads(MITSUBA_GLTF.read_text("utf-8")).items():
+        if name != "context":
+            value, most = scene["difference, and at most"]
+            ours, theirs = (scene["noise"][renderer] for renderer in ("clvndf", "mitsuba"))
+            yield (name, scene["shows"], f"{100 * value:.2f} %, at most {100 * most:.2f} %",
+                   f"{scene['means']['clvndf'] / scene['means']['mitsuba']:.4f}", f"{100 * ours:.1f}, {100 * theirs:.1f} %")
+
+
 def mitsuba_bsdf():
     """The largest of each figure over anisotropy and transport."""
     cells = collections.defaultdict(list)
@@ -336,6 +346,8 @@ TABLES = {
     "peer_angles": lambda build: peer_errors(peer_angles),
     "embree_peer": lambda build: table(["triangles", *RAYS], embree_peer()),
     "mitsuba_render": lambda build: table(["measure", "white sky", "and a sun"], mitsuba_render()),
+    "mitsuba_gltf": lambda build: table(["scene", "shows", "difference beyond noise", "mean over Mitsuba's", "noise, ours and Mitsuba's"],
+                                        mitsuba_gltf()),
     "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),

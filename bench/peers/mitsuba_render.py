@@ -201,6 +201,14 @@ def raced(renderers, rounds):
     return result
 
 
+def write(result, path):
+    """With four digits, into the file and on the screen."""
+    short = json.loads(json.dumps(result), parse_float=lambda number: float(f"{float(number):.4g}"))
+    text = json.dumps(short, indent=1) + "\n"
+    path.write_text(text, "utf-8")
+    print(text, end="")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("output", type=pathlib.Path)
@@ -220,10 +228,7 @@ def main():
             ours, theirs = Ours(clvndf, folder, sky), {name: Theirs(name, sky) for name in VARIANTS}
             result[sky] = {**compared(ours, theirs["llvm"], arguments.samples),
                            **raced({"clvndf": ours, **theirs}, arguments.rounds)}
-    text = json.dumps(result)
-    short = json.loads(text, parse_float=lambda number: float(f"{float(number):.4g}"))
-    arguments.output.write_text(json.dumps(short, indent=1) + "\n", "utf-8")
-    print(arguments.output.read_text("utf-8"), end="")
+    write(result, arguments.output)
 
 
 if __name__ == "__main__":
