@@ -1,6 +1,7 @@
 #include "render/wavefront.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,12 @@ constexpr unsigned roulette_from = 3;  // bounces that every path lives
 // Random numbers of a sample: of the camera, two quads of each bounce, and for each bounce another.
 std::size_t quads(const Settings& settings) {
     return VNDF_QUAD_PICK(std::max(1u, settings.max_bounces)) + std::max(1u, settings.max_bounces);
+}
+
+// In which of two halves a sample counts: by the digits of its number, so that each half has samples from all over the pixel.
+// Those with odd numbers are, of Sobol's sequence, on one side of it.
+bool other_half(std::uint64_t sample) {
+    return std::popcount(sample) % 2 == 1;
 }
 
 constexpr std::size_t whole_chunks(std::size_t items) {
@@ -90,7 +97,7 @@ bool Wavefront::add_sample(const std::function<bool()>& stop) {
     for (std::uint32_t first = ahead_; first < pixels_; first += queue_) {
         const std::uint32_t count = std::min(queue_, pixels_ - first);
         trace(first, count);
-        const float odd = samples_ % 2 == 1 ? 1.0f : 0.0f;
+        const float odd = other_half(samples_) ? 1.0f : 0.0f;
         stages_.launch("accumulate", count, {light_, first, count, stride_, film_stride_, odd, film_});
         ahead_ = first + count;
         if (ahead_ < pixels_ && stop()) return false;
@@ -211,7 +218,8 @@ Image Wavefront::image() {
         const double mean = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
         luminance += mean;
         // Two halves differ by twice the error of their mean.
-        const double odd = plane(VNDF_FILM_ODD, pixel) / std::max<std::uint64_t>(1, taken / 2);
+        const std::uint64_t others = taken / 2 + (taken % 2 == 1 && other_half(taken - 1));
+        const double odd = plane(VNDF_FILM_ODD, pixel) / std::max<std::uint64_t>(1, others);
         square += (odd - mean) * (odd - mean);
     }
     image.error = samples_ < 2 || luminance == 0 ? 1 : std::sqrt(square / pixels_) / (luminance / pixels_);

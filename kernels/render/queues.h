@@ -62,7 +62,7 @@
 #define VNDF_LOOK_EMISSION 13
 #define VNDF_LOOK_PLANES 16
 
-// The film, by pixel: sums over the samples, the luminance of those with an odd number, and how often a sample was no number.
+// The film, by pixel: sums over the samples, the luminance of one half of them, and how often a sample was no number.
 #define VNDF_FILM_RED 0
 #define VNDF_FILM_GREEN 1
 #define VNDF_FILM_BLUE 2
