@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,36 +15,50 @@ namespace {
 constexpr unsigned width = 240, samples = 16;
 
 // A small rendering with some of the effects.
-struct Rendering {
-    Image image;
-    double shading = 0, seconds = 0;  // of the fastest sample: in the stages that know materials, in all
+class Rendering {
+  public:
+    Rendering(const Explained& what, const std::vector<Effect>& effects)
+        : stages_(device_stages(what.device, what.math, switches(what.scene, effects, what.choices), true)),
+          wavefront_(*stages_, what.scene, what.tree, small(what.settings)) {
+        wavefront_.add_sample();  // which compiles
+    }
+
+    // The fastest of samples in seconds: in the stages that know what the scene holds, and in all.
+    struct Time {
+        double shading = 1e9, all = 1e9;
+    };
+    void sample(Time& time) {
+        const double before = shading();
+        const auto start = std::chrono::steady_clock::now();
+        wavefront_.add_sample();
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        time.shading = std::min(time.shading, shading() - before);
+        time.all = std::min(time.all, passed.count());
+    }
+    Image image() { return wavefront_.image(); }
+
+  private:
+    static Settings small(Settings settings) {
+        settings.height = std::max(1u, settings.height * width / settings.width);
+        settings.width = width;
+        return settings;
+    }
+    double shading() const {
+        double sum = 0;
+        for (const char* stage : {"surface", "dress", "lights", "connect", "scatter"})
+            sum += stages_->seconds(stage);
+        return sum;
+    }
+
+    std::unique_ptr<Stages> stages_;
+    Wavefront wavefront_;
 };
 
-Rendering rendering(const Explained& what, const std::vector<Effect>& effects) {
-    Settings settings = what.settings;
-    settings.height = std::max(1u, settings.height * width / settings.width);
-    settings.width = width;
-    const auto stages =
-        device_stages(what.device, what.math, switches(what.scene, effects, what.choices), true);
-    Wavefront wavefront(*stages, what.scene, what.tree, settings);
-    Rendering result;
-    double before = 0, fastest = 1e9, whole = 1e9;
-    for (unsigned i = 0; i < samples; ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        wavefront.add_sample();
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (i > 0) whole = std::min(whole, seconds);
-        const double now = stages->seconds("surface") + stages->seconds("dress") + stages->seconds("lights") +
-                           stages->seconds("connect") + stages->seconds("scatter");
-        if (i > 0) fastest = std::min(fastest, now - before);  // the first compiles
-        before = now;
-    }
-    result.image = wavefront.image();
-    result.shading = fastest;
-    result.seconds = whole;
-    return result;
-}
+// An effect on, and off: timed in turn, so that both meet the same moods of the machine.
+struct Compared {
+    Rendering::Time with, without;
+    Image image_with, image_without;
+};
 
 // Root mean square over mean.
 double difference(const Image& a, const Image& b) {
@@ -72,12 +88,29 @@ bool may_turn_off(const std::vector<Effect>& effects, const Effect& effect) {
     });
 }
 
-// The same without an effect that is on, or with one that is off; nothing where no program would be left.
-std::optional<Rendering> turned(const Explained& what, std::size_t i) {
-    std::vector<Effect> other = what.effects;
-    if (other[i].on && !may_turn_off(other, other[i])) return std::nullopt;
-    other[i].on = !other[i].on;
-    return rendering(what, other);
+// Nothing where no program would be left. usual: with the scene's effects, its image as it is after as many samples.
+std::optional<Compared> compared(const Explained& what, std::size_t i, Rendering& usual, const Image& image) {
+    std::vector<Effect> turned = what.effects;
+    if (turned[i].on && !may_turn_off(turned, turned[i])) return std::nullopt;
+    turned[i].on = !turned[i].on;
+    Rendering other(what, turned);
+    Rendering::Time own, its;
+    for (unsigned k = 1; k < samples; ++k) {
+        usual.sample(own);
+        other.sample(its);
+    }
+    Compared both{own, its, image, other.image()};
+    if (!what.effects[i].on) {
+        std::swap(both.with, both.without);
+        std::swap(both.image_with, both.image_without);
+    }
+    return both;
+}
+
+Image image_of(Rendering& usual) {
+    Rendering::Time unused;
+    for (unsigned k = 1; k < samples; ++k) usual.sample(unused);
+    return usual.image();
 }
 
 // Of those that the scene calls for or that are on nevertheless.
@@ -97,20 +130,19 @@ std::string table(const Explained& what, const std::string& head, const Row& row
 }  // namespace
 
 std::string explanation(const Explained& what) {
-    const Rendering usual = rendering(what, what.effects);
+    Rendering usual(what, what.effects);
+    const Image image = image_of(usual);
     std::string simplifications;
     const auto row = [&](std::size_t i) {
         const Effect& effect = what.effects[i];
-        const std::optional<Rendering> other = turned(what, i);
+        const std::optional<Compared> both = compared(what, i, usual, image);
         std::string cost = "all of it";
-        if (other)
-            cost = fmt::format("{:+.1f} %", 100 * (effect.on ? usual.shading / other->shading - 1
-                                                             : other->shading / usual.shading - 1));
+        if (both) cost = fmt::format("{:+.1f} %", 100 * (both->with.shading / both->without.shading - 1));
         if (!effect.on)
             simplifications += fmt::format(
                 "{} is off although {} calls for it: a deliberate simplification, which changes the "
                 "image by {:.2g} of its mean (root mean square)\n",
-                effect.name, effect.called_by, difference(usual.image, other->image));
+                effect.name, effect.called_by, difference(both->image_without, both->image_with));
         return fmt::format("{:<18}{:<46}{:<34}{}\n", effect.name,
                            effect.called_by.empty() ? "nothing" : effect.called_by,
                            fmt::format("{}={:d}", effect.macro, effect.on), cost);
@@ -125,17 +157,17 @@ std::string explanation(const Explained& what) {
 }
 
 std::string effect_costs(const Explained& what) {
-    const Rendering usual = rendering(what, what.effects);
+    Rendering usual(what, what.effects);
+    const Image image = image_of(usual);
     const auto row = [&](std::size_t i) {
         const Effect& effect = what.effects[i];
-        const std::optional<Rendering> other = turned(what, i);
-        if (!other) return fmt::format("{:<18}{:>14}\n", effect.name, "all of it");
-        const Rendering &with = effect.on ? usual : *other, &without = effect.on ? *other : usual;
-        const double noise = noise_of(with.image), rest = noise_of(without.image);
+        const std::optional<Compared> both = compared(what, i, usual, image);
+        if (!both) return fmt::format("{:<18}{:>14}\n", effect.name, "all of it");
+        const double noise = noise_of(both->image_with), rest = noise_of(both->image_without);
         return fmt::format("{:<18}{:>+12.1f} %{:>+12.1f} %{:>14.2g}\n", effect.name,
-                           100 * (1 - without.seconds / with.seconds),
+                           100 * (1 - both->without.all / both->with.all),
                            noise > 0 ? 100 * (1 - rest * rest / (noise * noise)) : 0,
-                           difference(without.image, with.image));
+                           difference(both->image_without, both->image_with));
     };
     return table(what,
                  fmt::format("{:<18}{:>14}{:>14}{:>14}\n", "effect", "of the time", "of the error",
