@@ -123,11 +123,12 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
 #endif
     d.share = VNDF_FMA(vndf_impl_bsdf_metal(v.b), v.multiple.share, lambert.share);
     VNDF_REAL rcp = VNDF_R(1.0) / (d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
-    d.weight = vndf_impl_bsdf_multiple(v.b, v.multiple, i);
-    d.weight = vndf_impl_rgb(VNDF_FMA(lambert.share, lambert.weight.r, d.weight.r),
-                             VNDF_FMA(lambert.share, lambert.weight.g, d.weight.g),
-                             VNDF_FMA(lambert.share, lambert.weight.b, d.weight.b));
-    d.weight = vndf_impl_rgb_scaled(d.weight, rcp);
+    // Without a metal the weight is Lambert's, to the bit.
+    VNDF_REAL own = d.share == lambert.share ? VNDF_R(1.0) : lambert.share * rcp;
+    d.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_multiple(v.b, v.multiple, i), rcp);
+    d.weight = vndf_impl_rgb(VNDF_FMA(own, lambert.weight.r, d.weight.r),
+                             VNDF_FMA(own, lambert.weight.g, d.weight.g),
+                             VNDF_FMA(own, lambert.weight.b, d.weight.b));
     d.pdf = lambert.pdf;
     return d;
 }

@@ -166,7 +166,8 @@ TEST_CASE("results with an effect off are those with everything on, to the bit")
     compare(all, "", front_conductor, items);
     for (const std::string other :
          {"NDF=beckmann FRESNEL=conductor MASKING=separable", "ENERGY=turquin", "ENERGY=kulla_conty"})
-        compare(BsdfProgram(other), other, front_conductor, items);
+        for (const Off& off : {front_conductor, Off{"CONDUCTOR"}, Off{"DIELECTRIC"}})
+            compare(BsdfProgram(other), other, off, items);
 }
 
 // Shown able to fail: with inputs that do call for the effect, and with a changed formula.

@@ -409,7 +409,7 @@
      {"value"}},
     {"paint that counts as much as what a metal scatters between its facets",
      "kernels/vndf/bsdf_diffuse.h",
-     "VNDF_FMA(lambert.share, lambert.weight.r, d.weight.r)",
+     "VNDF_FMA(own, lambert.weight.r, d.weight.r)",
      "lambert.weight.r + d.weight.r",
      "ENERGY=kulla_conty",
      {"value"}},
