@@ -264,6 +264,13 @@ const std::map<std::string, std::function<std::string(const Surveyed&)>>& caller
          [](const Surveyed& s) {
              return s.scene.lights.empty() ? std::string() : fmt::format("{} lights", s.scene.lights.size());
          }},
+        {"sun", [](const Surveyed& s) { return std::string(s.scene.sky.sun_share > 0 ? "the sun" : ""); }},
+        {"sky",
+         [](const Surveyed& s) {
+             const Sky& sky = s.scene.sky;
+             const bool black = sky.zenith == Vec{} && sky.horizon == Vec{} && sky.ground == Vec{};
+             return std::string(black || s.scene.environment.side > 0 ? "" : "the sky");
+         }},
         {"environment", [](const Surveyed& s) {
              return s.scene.environment.side > 0 ? std::string("an image of the environment") : std::string();
          }}};
@@ -310,7 +317,11 @@ const std::vector<std::string>& samplers() {
 std::vector<Effect> effects_for(const Scene& scene, std::string_view asked) {
     std::vector<Effect> effects = called_effects(scene);
     if (asked == "auto") return effects;
-    for (Effect& effect : effects) effect.on = asked == "all";
+    // What comes from all around stays, named or not: without it most scenes are dark.
+    const auto around = [](const std::string& name) {
+        return name == "sun" || name == "sky" || name == "environment";
+    };
+    for (Effect& effect : effects) effect.on = asked == "all" || (effect.on && around(effect.name));
     if (asked == "all") return effects;
     std::vector<std::string> names;
     for (const Effect& effect : effects) names.push_back(effect.name);

@@ -25,7 +25,8 @@ struct Choices {
 // How directions are drawn: the samplers of kernels/vndf/bsdf_facets.h, and two to compare with (kernels/render/material.h).
 const std::vector<std::string>& samplers();
 
-// Each effect, on or off. asked: "auto", what the scene calls for; "all"; or names with commas between them, "none" for none.
+// Each effect, on or off. asked: "auto", what the scene calls for; "all"; or names with commas between them, and light
+// from all around as the scene has it.
 // Throws InputError at other names, or if nothing is left of the materials.
 std::vector<Effect> effects_for(const Scene& scene, std::string_view asked);
 

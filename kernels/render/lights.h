@@ -25,12 +25,15 @@ struct vndf_render_lit {
     float pdf, distance;
 };
 
+#if VNDF_RENDER_SUN
 // 1 - cos of the angle to the middle of the sun, of directions near it without cancellation.
 VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, float z) {
     const float dx = x - sky.sun_x, dy = y - sky.sun_y, dz = z - sky.sun_z;
     return 0.5f * VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz));
 }
+#endif
 
+#if VNDF_RENDER_SKY
 // One channel of the sky.
 VNDF_FN float vndf_render_radiance(float zenith, float horizon, float ground, float low4, int above) {
     return above ? VNDF_FMA(horizon - zenith, low4, zenith) : ground;
@@ -41,17 +44,22 @@ VNDF_FN float vndf_render_low4(float up) {
     const float low2 = vndf_impl_square(1.0f - up);
     return low2 * low2;
 }
+#endif
 
 VNDF_FN struct vndf_render_far vndf_render_far_of(struct vndf_render_sky sky, VNDF_RENDER_FROM(float) around,
                                                   VNDF_RENDER_FROM(float) around_pdf,
                                                   struct vndf_render_vector w) {
-    const int in_sun = vndf_render_gap(sky, w.x, w.y, w.z) <= sky.sun_gap, above = w.y >= 0.0f;
+    float pdf = 0.0f;
+    struct vndf_render_vector radiance = vndf_render_vector_of(0.0f, 0.0f, 0.0f);
+#if VNDF_RENDER_SKY
+    const int above = w.y >= 0.0f;
     const float low4 = vndf_render_low4(w.y);
-    float pdf = VNDF_1_PI * vndf_impl_max(w.y, 0.0f);
-    struct vndf_render_vector radiance = vndf_render_vector_of(
+    pdf = VNDF_1_PI * vndf_impl_max(w.y, 0.0f);
+    radiance = vndf_render_vector_of(
         vndf_render_radiance(sky.zenith_red, sky.horizon_red, sky.ground_red, low4, above),
         vndf_render_radiance(sky.zenith_green, sky.horizon_green, sky.ground_green, low4, above),
         vndf_render_radiance(sky.zenith_blue, sky.horizon_blue, sky.ground_blue, low4, above));
+#endif
 #if VNDF_RENDER_ENVIRONMENT
     const int there = sky.side > 0;
     const uint side = there ? sky.side : 1;
@@ -64,23 +72,35 @@ VNDF_FN struct vndf_render_far vndf_render_far_of(struct vndf_render_sky sky, VN
     (void)around;
     (void)around_pdf;
 #endif
-    const float sun = in_sun ? sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap) : 0.0f;
     struct vndf_render_far far;
+#if VNDF_RENDER_SUN
+    const int in_sun = vndf_render_gap(sky, w.x, w.y, w.z) <= sky.sun_gap;
+    const float sun = in_sun ? sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap) : 0.0f;
     far.radiance = vndf_render_vector_of(radiance.x + (in_sun ? sky.sun_red : 0.0f),
                                          radiance.y + (in_sun ? sky.sun_green : 0.0f),
                                          radiance.z + (in_sun ? sky.sun_blue : 0.0f));
     far.pdf = VNDF_FMA(pdf, sky.sky_share, sun);
+#else
+    far.radiance = radiance;
+    far.pdf = pdf * sky.sky_share;
+#endif
     return far;
 }
 
-// A direction about the middle of the sun, even in 1 - cos; or about the zenith, even in cos^2.
+// A direction about the zenith, even in cos^2; or about the middle of the sun, even in 1 - cos.
 VNDF_FN struct vndf_render_vector vndf_render_up_or_sun(struct vndf_render_sky sky, int to_sun, float b,
                                                         float c) {
+#if VNDF_RENDER_SUN
     const float gap = to_sun ? b * sky.sun_gap : 1.0f - VNDF_SQRT(b);
-    const float radius = VNDF_SQRT(gap * (2.0f - gap)), height = 1.0f - gap;
-    const float x = radius * vndf_impl_circle_cos(c), y = radius * vndf_impl_circle_sin(c);
     const float nx = to_sun ? sky.sun_x : 0.0f, ny = to_sun ? sky.sun_y : 1.0f,
                 nz = to_sun ? sky.sun_z : 0.0f;
+#else
+    (void)sky;
+    (void)to_sun;
+    const float gap = 1.0f - VNDF_SQRT(b), nx = 0.0f, ny = 1.0f, nz = 0.0f;
+#endif
+    const float radius = VNDF_SQRT(gap * (2.0f - gap)), height = 1.0f - gap;
+    const float x = radius * vndf_impl_circle_cos(c), y = radius * vndf_impl_circle_sin(c);
     // Duff et al., Building an Orthonormal Basis, Revisited, 2017, about y, which is up.
     const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), both = nx * nz * k;
     return vndf_render_vector_of(VNDF_FMA(x, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(y, both, height * nx)),
@@ -209,7 +229,11 @@ VNDF_RENDER_KERNEL vndf_render_lights(
     VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
+#if VNDF_RENDER_SUN
     const int to_sun = u.a < sky.sun_share;
+#else
+    const int to_sun = 0;
+#endif
     struct vndf_render_lit lit;
     lit.direction = vndf_render_up_or_sun(sky, to_sun, u.b, u.c);
 #if VNDF_RENDER_PICKED_LIGHT
