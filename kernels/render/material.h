@@ -54,9 +54,10 @@ VNDF_FN struct vndf_render_row vndf_render_row_of(struct vndf_render_sizes sizes
 // the compiler each is something else.
 VNDF_FN struct vndf_rgb vndf_render_rgb_at(VNDF_RENDER_FROM(float) materials, struct vndf_render_row row,
                                            uint plane) {
-    return vndf_impl_rgb(materials[plane * row.count + row.number],
-                         row.one * materials[(plane + 1) * row.count + row.number],
-                         row.one * (row.one * materials[(plane + 2) * row.count + row.number]));
+    // Each from a place of its own: places counted from one LLVM packs as well, where there are many.
+    VNDF_RENDER_FROM(float) const from = materials + plane * row.count;
+    return vndf_impl_rgb(from[row.number], row.one * (from + row.count)[row.number],
+                         row.one * (row.one * (from + 2 * row.count)[row.number]));
 }
 
 // How a path's material looks at the place where it is (dress.h).
@@ -75,9 +76,11 @@ VNDF_FN float vndf_render_looks_like(struct vndf_render_look look, uint plane) {
     return look.planes[plane * look.stride + look.i];
 }
 VNDF_FN struct vndf_rgb vndf_render_times(struct vndf_rgb rgb, struct vndf_render_look look, uint plane) {
-    return vndf_impl_rgb(rgb.r * vndf_render_looks_like(look, plane),
-                         rgb.g * vndf_render_looks_like(look, plane + 1),
-                         rgb.b * vndf_render_looks_like(look, plane + 2));
+    // Each channel waits for the one before, as in texture.h.
+    const float r = rgb.r * vndf_render_looks_like(look, plane);
+    const float g = rgb.g * (r >= 0.0f ? vndf_render_looks_like(look, plane + 1) : 0.0f);
+    const float b = rgb.b * (g >= 0.0f ? vndf_render_looks_like(look, plane + 2) : 0.0f);
+    return vndf_impl_rgb(r, g, b);
 }
 
 // What textures change of a material.
