@@ -89,9 +89,16 @@ bool flat(const Scene& scene, const Triangle& triangle) {
         std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
     const auto zeros = std::count(a.normal.begin(), a.normal.end(), 0.0f);
     if (ones != 1 || zeros != 2) return false;
-    for (int axis = 0; axis < 3; ++axis)
-        if (a.normal[axis] != 0 && (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]))
-            return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a.normal[axis] == 0) continue;
+        if (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]) return false;
+        // The face's normal as the kernel forms it: to the bit, and on the same side.
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const float bu = b.place[u] - a.place[u], bv = b.place[v] - a.place[v], cu = c.place[u] - a.place[u],
+                    cv = c.place[v] - a.place[v];
+        const float area = bu * cv - bv * cu;
+        if (area * (1 / std::sqrt(area * area)) != a.normal[axis]) return false;
+    }
     return true;
 }
 
