@@ -152,8 +152,10 @@ VNDF_RENDER_KERNEL vndf_render_surface(const struct vndf_render_sizes sizes, VND
 #else
     const struct vndf_render_vector turned = vndf_render_scaled(side, smooth);
 #endif
-    // Bent until wo is one part in a hundred above its horizon, so that a coarse mesh has no black spots.
-    const float lack = vndf_impl_max(0.01f - vndf_render_dot(turned, wo), 0.0f);
+    // Bent until wo is one part in a hundred above its horizon, or as far as above the face's, so that a coarse mesh has no black
+    // spots, and a flat one keeps its normal.
+    const float least = vndf_impl_min(0.01f, vndf_render_dot(geometric, wo));
+    const float lack = vndf_impl_max(least - vndf_render_dot(turned, wo), 0.0f);
     const struct vndf_render_vector normal = vndf_render_unit_vector(vndf_render_sum(turned, lack, wo));
 #else
     const struct vndf_render_vector normal = geometric;
