@@ -16,7 +16,7 @@
 #include "cli/render_scene.h"
 #include "cli/streams.h"
 #include "error.h"
-#include "gltf/files.h"
+#include "file.h"
 #include "render/checkpoint.h"
 #include "render/effects.h"
 #include "render/explain.h"
@@ -99,7 +99,7 @@ class Checkpoint {
     bool resume(render::Wavefront& wavefront) const {
         std::error_code none;
         if (path_.empty() || !std::filesystem::exists(path_, none)) return false;
-        const std::string bytes = gltf::read_file(path_, std::uint64_t{1} << 36);
+        const std::string bytes = read_file(path_, std::uint64_t{1} << 36);
         wavefront.resume(render::state_of(bytes, fingerprint_, path_));
         return true;
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "error.h"
+#include "hash.h"
 #include "text.h"
 
 namespace vndf::energy {
@@ -16,15 +17,9 @@ namespace {
 // To be raised with every change of what a table holds.
 constexpr int version = 1;
 
-std::uint64_t checksum(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-    for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3;
-    return hash;
-}
-
 std::string first_line(const Surface& surface, std::string_view numbers) {
     return fmt::format("clvndf energy table {} {} {} {} {} {:016x}\n", version, surface.ndf, surface.masking,
-                       Table::rows, Table::columns, checksum(numbers));
+                       Table::rows, Table::columns, fnv1a(numbers));
 }
 
 std::string array(const std::string& name, const std::vector<float>& values) {

@@ -12,9 +12,6 @@ namespace vndf::gltf {
 // The bytes of the file `path`, as it stands at `place` of the JSON: at most `limit`, or it is refused.
 using Beside = std::function<std::string(const Item& place, const std::string& path, std::uint64_t limit)>;
 
-// Throws InputError if it is no file, cannot be read or holds more than `limit` bytes.
-std::string read_file(const std::filesystem::path& file, std::uint64_t limit);
-
 // Files of a folder and those below. Refused are absolute paths and those that leave it, by ".." or by links.
 Beside beside(const std::filesystem::path& folder);
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "file.h"
 #include "gltf/accessors.h"
 #include "gltf/cameras.h"
 #include "gltf/container.h"

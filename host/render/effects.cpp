@@ -15,6 +15,30 @@
 namespace vndf::render {
 namespace {
 
+// Whether the corners' normals are the face's, as the kernel forms it (kernels/render/surface.h): then all products are exact.
+bool flat(const Scene& scene, const Triangle& triangle) {
+    const Vertex& a = scene.vertices[triangle.corners[0]];
+    const Vertex& b = scene.vertices[triangle.corners[1]];
+    const Vertex& c = scene.vertices[triangle.corners[2]];
+    if (a.normal != b.normal || a.normal != c.normal) return false;
+    // One axis alone: others are not unit vectors to the bit.
+    const auto ones =
+        std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
+    const auto zeros = std::count(a.normal.begin(), a.normal.end(), 0.0f);
+    if (ones != 1 || zeros != 2) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (a.normal[axis] == 0) continue;
+        if (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]) return false;
+        // The face's normal as the kernel forms it: to the bit, and on the same side.
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const float bu = b.place[u] - a.place[u], bv = b.place[v] - a.place[v], cu = c.place[u] - a.place[u],
+                    cv = c.place[v] - a.place[v];
+        const float area = bu * cv - bv * cu;
+        if (area * (1 / std::sqrt(area * area)) != a.normal[axis]) return false;
+    }
+    return true;
+}
+
 // A scene, and what its materials are at least and at most.
 struct Surveyed {
     explicit Surveyed(const Scene& of) : scene(of), ranges(of) {
@@ -24,16 +48,22 @@ struct Surveyed {
             else
                 materials.push_back(variants(of, ranges, i));
         used.resize(of.materials.size());
+        faintest.resize(of.materials.size(), 1.0f);
         for (const Triangle& t : of.triangles) {
             used[t.material] = true;
             tangents = tangents || of.vertices[t.corners[0]].tangent[3] != 0;
+            bent += !flat(of, t);
+            for (const std::uint32_t corner : t.corners)
+                faintest[t.material] = std::min(faintest[t.material], of.vertices[corner].colour[3]);
         }
     }
 
     const Scene& scene;
     TexelRanges ranges;
     std::vector<std::vector<Material>> materials;
-    std::vector<bool> used;  // by a triangle
+    std::vector<bool> used;       // by a triangle
+    std::vector<float> faintest;  // alpha of its vertices
+    std::size_t bent = 0;         // triangles with normals of their own
     bool tangents = false;
 };
 
@@ -78,36 +108,6 @@ bool some_below_white(const TexelRange& range, std::initializer_list<int> channe
     return std::any_of(channels.begin(), channels.end(), [&](int c) { return range.least[c] < 255; });
 }
 
-// Whether the corners' normals are the face's, as the kernel forms it (kernels/render/surface.h): then all products are exact.
-bool flat(const Scene& scene, const Triangle& triangle) {
-    const Vertex& a = scene.vertices[triangle.corners[0]];
-    const Vertex& b = scene.vertices[triangle.corners[1]];
-    const Vertex& c = scene.vertices[triangle.corners[2]];
-    if (a.normal != b.normal || a.normal != c.normal) return false;
-    // One axis alone: others are not unit vectors to the bit.
-    const auto ones =
-        std::count_if(a.normal.begin(), a.normal.end(), [](float x) { return std::abs(x) == 1; });
-    const auto zeros = std::count(a.normal.begin(), a.normal.end(), 0.0f);
-    if (ones != 1 || zeros != 2) return false;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (a.normal[axis] == 0) continue;
-        if (a.place[axis] != b.place[axis] || a.place[axis] != c.place[axis]) return false;
-        // The face's normal as the kernel forms it: to the bit, and on the same side.
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const float bu = b.place[u] - a.place[u], bv = b.place[v] - a.place[v], cu = c.place[u] - a.place[u],
-                    cv = c.place[v] - a.place[v];
-        const float area = bu * cv - bv * cu;
-        if (area * (1 / std::sqrt(area * area)) != a.normal[axis]) return false;
-    }
-    return true;
-}
-
-std::string bent_triangles(const Surveyed& s) {
-    const auto bent = std::count_if(s.scene.triangles.begin(), s.scene.triangles.end(),
-                                    [&](const Triangle& t) { return !flat(s.scene, t); });
-    return bent == 0 ? std::string() : fmt::format("{} triangles with normals of their own", bent);
-}
-
 // The first that says something.
 std::string first_of(std::initializer_list<std::string> callers) {
     const auto found = std::find_if(callers.begin(), callers.end(), [](const auto& c) { return !c.empty(); });
@@ -118,13 +118,8 @@ bool lets_light_pass(const Surveyed& s, std::size_t i) {
     if (s.scene.dressings.empty()) return false;
     const GltfMaterial& m = s.scene.dressings[i].factors;
     if (m.alpha == Alpha::opaque) return false;
-    float painted = 1;
-    for (const Triangle& t : s.scene.triangles)
-        if (t.material == i)
-            for (const std::uint32_t corner : t.corners)
-                painted = std::min(painted, s.scene.vertices[corner].colour[3]);
     const float least =
-        m.opacity * painted * static_cast<float>(s.ranges.of(i, Slot::base_colour).least[3]) / 255;
+        m.opacity * s.faintest[i] * static_cast<float>(s.ranges.of(i, Slot::base_colour).least[3]) / 255;
     return least < (m.alpha == Alpha::mask ? m.alpha_cutoff : 1.0f);
 }
 
@@ -179,7 +174,8 @@ std::string emission_textured(const Surveyed& s) {
 }
 
 std::string bent(const Surveyed& s) {
-    return first_of({normal_mapped(s), bent_triangles(s)});
+    const std::string own = fmt::format("{} triangles with normals of their own", s.bent);
+    return first_of({normal_mapped(s), s.bent == 0 ? std::string() : own});
 }
 
 std::string shining(const Surveyed& s) {
@@ -204,10 +200,7 @@ const std::map<std::string, std::function<std::string(const Surveyed&)>>& caller
          }},
         {"coat",
          [](const Surveyed& s) { return materials_that(s, [](const Material& m) { return m.coat > 0; }); }},
-        {"anisotropic",
-         [](const Surveyed& s) {
-             return materials_that(s, [](const Material& m) { return anisotropic(m); });
-         }},
+        {"anisotropic", [](const Surveyed& s) { return materials_that(s, anisotropic); }},
         {"tint",
          [](const Surveyed& s) {
              return materials_that(s, [](const Material& m) {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "error.h"
+#include "file.h"
 #include "parallel.h"
 #include "render/alias.h"
 
@@ -22,10 +21,7 @@ std::string bytes_of(const std::filesystem::path& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         throw InputError(fmt::format("{}: no file", file.string()));
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream || stream.bad()) throw InputError(fmt::format("{}: cannot be read", file.string()));
-    return bytes;
+    return read_file(file, std::uint64_t{1} << 32);
 }
 
 LatLong read(const std::filesystem::path& file) {
@@ -150,11 +146,11 @@ void fill_border(float* map, std::uint32_t side) {
 // The mean luminance over each cell of what the kernels interpolate: above 0 wherever that is.
 std::vector<double> weights_of(const Environment& environment) {
     const std::size_t side = environment.side, n = side + 2;
-    std::vector<double> luminance(n * n);
+    std::vector<double> bright(n * n);
     for (std::size_t i = 0; i < n * n; ++i)
-        luminance[i] = 0.2126 * environment.radiance[i] + 0.7152 * environment.radiance[n * n + i] +
-                       0.0722 * environment.radiance[2 * n * n + i];
-    const auto across = [&](std::size_t i) { return luminance[i - 1] + 6 * luminance[i] + luminance[i + 1]; };
+        bright[i] = luminance(environment.radiance[i], environment.radiance[n * n + i],
+                              environment.radiance[2 * n * n + i]);
+    const auto across = [&](std::size_t i) { return bright[i - 1] + 6 * bright[i] + bright[i + 1]; };
     std::vector<double> weights;
     for (std::size_t y = 1; y <= side; ++y)
         for (std::size_t x = 1; x <= side; ++x) {

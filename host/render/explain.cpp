@@ -74,7 +74,7 @@ double difference(const Image& a, const Image& b) {
 double noise_of(const Image& image) {
     double sum = 0;
     for (std::size_t i = 0; i < image.pixels.size(); i += 3)
-        sum += 0.2126 * image.pixels[i] + 0.7152 * image.pixels[i + 1] + 0.0722 * image.pixels[i + 2];
+        sum += luminance(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
     return image.error * sum;
 }
 

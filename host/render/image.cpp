@@ -133,9 +133,8 @@ void require_image_name(const std::string& path) {
 double fitting_stops(const Image& image) {
     std::vector<double> bright;
     for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
-        const double luminance =
-            0.2126 * image.pixels[i] + 0.7152 * image.pixels[i + 1] + 0.0722 * image.pixels[i + 2];
-        if (luminance > 0) bright.push_back(luminance);
+        const double own = luminance(image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]);
+        if (own > 0) bright.push_back(own);
     }
     if (bright.empty()) return 0;
     const auto tenth = bright.end() - 1 - static_cast<std::ptrdiff_t>(bright.size() / 10);

@@ -7,6 +7,11 @@ namespace vndf::render {
 
 using Vec = std::array<float, 3>;
 
+// Of linear red, green and blue with the primaries of sRGB.
+inline double luminance(double red, double green, double blue) {
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+}
+
 // As vndf_bsdf (kernels/vndf/bsdf.h): a rough conductor, a rough dielectric over another medium or over Lambert's reflection, or
 // a mix.
 struct Material {

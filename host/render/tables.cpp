@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "kernels/render/texture.h"
 
@@ -21,10 +20,6 @@ std::vector<T> planes_of(std::size_t planes, const Rows& rows, Fill fill) {
         for (std::size_t k = 0; k < planes; ++k) table[k * rows.size() + i] = row[k];
     }
     return table;
-}
-
-double luminance(const vndf_render_vector& rgb) {
-    return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
 }
 
 std::array<double, 3> way(const Vertex& a, const Vertex& b) {
@@ -53,7 +48,7 @@ class Shine {
 
     double of(std::uint32_t triangle) const {
         const Vec& own = scene_.materials[scene_.triangles[triangle].material].emission;
-        if (scene_.dressings.empty()) return luminance({own[0], own[1], own[2]});
+        if (scene_.dressings.empty()) return luminance(own[0], own[1], own[2]);
         constexpr int steps = 6;
         double sum = 0;
         int points = 0;
@@ -62,7 +57,7 @@ class Shine {
                 const auto spot = vndf_render_spot_of(looks_, triangle, (i + 1 / 3.0f) / steps,
                                                       (static_cast<float>(j) + 1 / 3.0f) / steps);
                 const vndf_render_vector look = vndf_render_emission_look(looks_, spot, 1.0f);
-                sum += luminance({own[0] * look.x, own[1] * look.y, own[2] * look.z});
+                sum += luminance(own[0] * look.x, own[1] * look.y, own[2] * look.z);
             }
         return sum / points;
     }
@@ -204,7 +199,7 @@ std::vector<float> point_table(const Scene& scene) {
     if (lights.empty()) return {};
     std::vector<double> weights;
     for (const PunctualLight& l : lights)
-        weights.push_back(l.intensity * luminance({l.colour[0], l.colour[1], l.colour[2]}));
+        weights.push_back(l.intensity * luminance(l.colour[0], l.colour[1], l.colour[2]));
     const Alias alias = alias_of(weights);
     std::size_t i = 0;
     return planes_of<float>(VNDF_POINT_PLANES, lights, [&](const PunctualLight& l) {

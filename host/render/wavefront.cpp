@@ -204,7 +204,7 @@ Image Wavefront::image() {
     const auto plane = [&](std::size_t k, std::size_t pixel) { return film[k * film_stride_ + pixel]; };
     Image image{settings_.width, settings_.height, std::vector<float>(std::size_t{3} * pixels_)};
     image.samples = static_cast<double>(pixel_samples()) / pixels_;
-    double luminance = 0, square = 0;
+    double sum = 0, square = 0;
     for (std::uint32_t pixel = 0; pixel < pixels_; ++pixel) {
         const std::uint64_t taken = samples_ + (pixel < ahead_);
         const double bad = plane(VNDF_FILM_BAD, pixel),
@@ -215,14 +215,14 @@ Image Wavefront::image() {
             image.pixels[3 * pixel + channel] =
                 static_cast<float>(plane(VNDF_FILM_RED + channel, pixel) / good);
         const float* const rgb = &image.pixels[3 * pixel];
-        const double mean = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-        luminance += mean;
+        const double mean = luminance(rgb[0], rgb[1], rgb[2]);
+        sum += mean;
         // Two halves differ by twice the error of their mean.
         const std::uint64_t others = taken / 2 + (taken % 2 == 1 && other_half(taken - 1));
         const double odd = plane(VNDF_FILM_ODD, pixel) / std::max<std::uint64_t>(1, others);
         square += (odd - mean) * (odd - mean);
     }
-    image.error = samples_ < 2 || luminance == 0 ? 1 : std::sqrt(square / pixels_) / (luminance / pixels_);
+    image.error = samples_ < 2 || sum == 0 ? 1 : std::sqrt(square / pixels_) / (sum / pixels_);
     return image;
 }
 
