@@ -91,6 +91,11 @@ if have nvcc CUDA; then
     cuda="nvcc -I $project/kernels -Xcompiler -ffp-contract=off -Xcompiler -Wall --Werror all-warnings"
     more="-L $(dirname "$(command -v nvcc)")/../lib64 -lcudart_static -ldl -lrt"
     same_bits cu $cuda -O2 -std=c++17
+    if nvidia-smi -L >/dev/null 2>&1; then
+        same_bits cu $cuda -O2 -std=c++17 -arch=native --fmad=false -DON_GPU
+    else
+        echo "skipped: CUDA on a GPU: no GPU"
+    fi
     for real in float double; do
         for math in strict builtin; do
             compiles $cuda -D VNDF_REAL=$real -D VNDF_MATH=$math -x cu --cubin -o /dev/null -arch=sm_80 --fmad=false \

@@ -41,18 +41,23 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     ex *= radius;
     ey *= radius;
     ez *= radius;
-    // The sum as in vndf_impl_cap_sum.
     VNDF_REAL hx = ex + vx, hy = ey + vy, hz = ez + vz;
-    VNDF_REAL error =
-        VNDF_FMA(ex - vx, hx, VNDF_FMA(ey - vy, hy, VNDF_FMA(ez - vz, hz, -excess))) / (square + l2);
-    hx = VNDF_FMA(-error, ex, hx);
-    hy = VNDF_FMA(-error, ey, hy);
-    hz = VNDF_FMA(-error, ez, hz);
     // The two parts are across n to their own rounding, which is much to a sum that nearly vanishes.
     VNDF_REAL lean = VNDF_FMA(hx, n.x, VNDF_FMA(hy, n.y, hz * n.z));
     hx = VNDF_FMA(-lean, n.x, hx);
     hy = VNDF_FMA(-lean, n.y, hy);
     hz = VNDF_FMA(-lean, n.z, hz);
+    // What is left across n is mended as in vndf_impl_cap_sum, twice: of a sum that nearly vanishes the first step leaves its
+    // own rounding, enough to turn it away from wo.
+    VNDF_REAL dx = ex - vx, dy = ey - vy, dz = ez - vz, scale = VNDF_R(1.0) / (square + l2);
+    VNDF_REAL error = VNDF_FMA(dx, hx, VNDF_FMA(dy, hy, VNDF_FMA(dz, hz, -excess))) * scale;
+    hx = VNDF_FMA(-error, ex, hx);
+    hy = VNDF_FMA(-error, ey, hy);
+    hz = VNDF_FMA(-error, ez, hz);
+    error = VNDF_FMA(dx, hx, VNDF_FMA(dy, hy, VNDF_FMA(dz, hz, -excess))) * scale;
+    hx = VNDF_FMA(-error, ex, hx);
+    hy = VNDF_FMA(-error, ey, hy);
+    hz = VNDF_FMA(-error, ez, hz);
     VNDF_REAL gx = VNDF_FMA(z, n.x, alpha * hx), gy = VNDF_FMA(z, n.y, alpha * hy),
               gz = VNDF_FMA(z, n.z, alpha * hz);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, gz * gz));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "conformance/judge/errors.h"
 #include "conformance/runs/check.h"
 #include "conformance/runs/exhaustive.h"
 #include "support/catch.h"
@@ -100,7 +101,40 @@ std::string csv_of(const std::string& row) {
     return names + "\n" + values + "\n";
 }
 
+// Every lobe of the walk at each u of ends and quarters and their neighbours: where a map's sums nearly vanish.
+Table corners(const Function& sampler) {
+    std::vector<Point> points;
+    for (Point point : exhaustive_lobes(sampler))
+        for (const double u1 : {0., 0.25, 0.5, 0.75, 1.})
+            for (const double u2 : {0., 0x1p-24, 0.5, 1 - 0x1p-22, 1 - 0x1p-23, 1 - 0x1p-24}) {
+                point.u = {u1, u2};
+                points.push_back(point);
+            }
+    return tabulate(sampler, points, runtime::Real::f32);
+}
+
 }  // namespace
+
+TEST_CASE("at the corners of u normals face the viewer, in every lobe of the walk") {
+    runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);
+    std::vector<const Function*> all;
+    for (const Function& function : functions()) all.push_back(&function);
+    for (const Function* sampler : samplers_of(all)) {
+        const int wo = column(*sampler, "wo_x");
+        if (sampler->result != "WM" || wo < 0 || sampler->domain == Domain::upper) continue;
+        const Table table = corners(*sampler);
+        const auto wm = evaluate(host, *sampler, table);
+        double worst = 0;
+        std::string at;
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            double facing = 0;
+            for (int k = 0; k < 3; ++k) facing += table.columns[wo + k][i] * wm[k][i];
+            if (-facing > worst) worst = -facing, at = hex_row(*sampler, table.row(i));
+        }
+        CAPTURE(sampler->name, worst * 0x1p24, at);
+        CHECK(worst <= side_bound() * 0x1p-24);
+    }
+}
 
 TEST_CASE("the exhaustion finds the one u at which a promise is broken, for each promise, and names it") {
     std::vector<const Function*> samplers;

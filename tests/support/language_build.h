@@ -1,5 +1,5 @@
 /* Every registered function over arrays, as in host/runtime/host_build.cpp, in the language that includes this: C, C++ or
- * CUDA. languages.sh puts it in place of the host build. */
+ * CUDA, there on the CPU or, with ON_GPU, on the GPU. languages.sh puts it in place of the host build. */
 #include <stddef.h>
 #include <string.h>
 
@@ -31,6 +31,9 @@
 #define VNDF_HOST_OUT(v, member) VNDF_REAL* const out_##v = (VNDF_REAL*)*outputs++;
 #define VNDF_HOST_LOAD(v) const VNDF_REAL v = in_##v[i];
 #define VNDF_HOST_STORE(v, member) out_##v[i] = result member;
+#ifdef ON_GPU
+#include "gpu_batch.h"
+#else
 #define VNDF_FUNCTION(name, arguments, result_)                                           \
     static void batch_##name(const void* const* inputs, void* const* outputs, size_t n) { \
         size_t i;                                                                         \
@@ -41,6 +44,7 @@
             VNDF_RESULTS_##result_(VNDF_HOST_STORE)                                       \
         }                                                                                 \
     }
+#endif
 #include "../../kernels/registry.def"
 
 typedef void (*function_of_language)(const void* const*, void* const*, size_t);
