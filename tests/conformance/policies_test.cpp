@@ -115,6 +115,10 @@ TEST_CASE("numbers that are not finite are counted in each build") {
     CHECK(behaviour.non_finite == expected);
 }
 
+TEST_CASE("the quick form finds that strict and builtin keep their promises, densities of samples too") {
+    CHECK(clvndf("policies --quick --only heitz2017").status == 0);
+}
+
 TEST_CASE("the command policies writes a table and JSON") {
     const Folder folder;
     CHECK(shell(folder, "\"$clvndf\" policies --quick --only vndf_ggx_lambda --json a.json >out") == 0);

@@ -8,7 +8,8 @@ Table pointwise_table(const Function& function, Real real, const PointwiseOption
     std::vector<Point> points = random_points(function, options.random_points, options.seed);
     const std::vector<Point> hard = hard_points(function);
     for (std::size_t i = 0; i < hard.size(); i += options.hard_stride) points.push_back(hard[i]);
-    for (const Point& point : guard_points(function)) points.push_back(point);
+    const std::vector<Point> guards = guard_points(function);
+    for (std::size_t i = 0; i < guards.size(); i += options.guard_stride) points.push_back(guards[i]);
     return tabulate(function, points, real);
 }
 

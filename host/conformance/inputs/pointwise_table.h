@@ -15,8 +15,9 @@ struct PointwiseOptions {
     Math math = Math::strict;
     std::uint64_t seed = 1;
     std::size_t random_points = std::size_t{1} << 16;
-    std::size_t hard_stride = 1;  // each hard_stride-th of the hard points
-    bool quick = false;           // the lobes of a quick run
+    std::size_t hard_stride = 1;   // each hard_stride-th of the hard points
+    std::size_t guard_stride = 1;  // and of the guards, which a percentile bears among many other points only
+    bool quick = false;            // the lobes of a quick run
 };
 
 // Random, hard and guard points as a table.

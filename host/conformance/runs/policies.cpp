@@ -116,6 +116,7 @@ PolicyReport measure_policies(const runtime::Device& device, Real real,
     pointwise.seed = options.seed;
     pointwise.random_points = std::size_t{1} << (options.quick ? 12 : 14);
     pointwise.hard_stride = options.quick ? 29 : 3;
+    pointwise.guard_stride = options.quick ? 29 : 1;
     pointwise.quick = options.quick;
     const double steps = static_cast<double>(selected.size() * evaluators.size());
     std::size_t step = 0;
