@@ -57,9 +57,14 @@ std::string error(const Row& row, const std::string& which) {
     return figure(row, "angle_max") ? cell(row, "angle_" + which) : cell(row, "err_" + which);
 }
 
+// Of a sample; a GPU takes some hundredths.
+std::string nanoseconds(double ns) {
+    return ns < 0.1 ? fmt::format("{:.4f}", ns) : fmt::format("{:.2f}", ns);
+}
+
 std::string time(const Row& row, const std::string& mode) {
     const auto found = row.modes.find(mode);
-    return found == row.modes.end() ? std::string() : fmt::format("{:.2f}", found->second->best_ns);
+    return found == row.modes.end() ? std::string() : nanoseconds(found->second->best_ns);
 }
 
 // A ratio of times: "=" if it is within what two identical kernels differ by.
@@ -184,7 +189,8 @@ void print_advice(const std::vector<bench::Advice>& all, const bench::Demand& de
     for (const bench::Advice& advice : all) {
         put("{}\n", advice.what);
         for (const bench::Candidate& c : advice.candidates)
-            put("  {:58} {:7.2f} ns {:>9} eps{}\n", c.function->name + " " + c.rung, c.ns, number(c.error),
+            put("  {:58} {:>7} ns {:>9} eps{}\n", c.function->name + " " + c.rung, nanoseconds(c.ns),
+                number(c.error),
                 !c.sound                 ? "  not finite or below"
                 : c.error > demand.error ? "  too much"
                 : advice.best && advice.best->function == c.function && advice.best->rung == c.rung
@@ -195,8 +201,8 @@ void print_advice(const std::vector<bench::Advice>& all, const bench::Demand& de
     const auto noise = spread.find("cached");
     for (const bench::Advice& advice : all) {
         if (advice.best)
-            put("{}: {} {}, {:.2f} ns, at most {} eps.\n", advice.what, advice.best->function->name,
-                advice.best->rung, advice.best->ns, number(advice.best->error));
+            put("{}: {} {}, {} ns, at most {} eps.\n", advice.what, advice.best->function->name,
+                advice.best->rung, nanoseconds(advice.best->ns), number(advice.best->error));
         else
             put("{}: none of those measured has an error within {} eps.\n", advice.what,
                 number(demand.error));
