@@ -10,9 +10,7 @@ namespace vndf::bench {
 // Where wo lies: above the surface, below it, or in turn.
 enum class Side { front, back, both };
 
-struct AlphaRange {
-    double low = 1e-3, high = 1;
-};
+using conformance::AlphaRange;
 
 // wo uniform on the hemisphere (about n), each alpha log-uniform in its range, n uniform on the sphere, u uniform, eta in
 // [1.05, 2.5]; for wo above the surface wm a visible normal of the lobe, wi the reflection of wo about it.

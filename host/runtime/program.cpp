@@ -4,9 +4,9 @@ namespace vndf::runtime {
 namespace {
 
 std::string all_options(const Device& device, Math math, Real real, const ProgramOptions& options) {
-    std::string text =
-        "-cl-std=CL1.2 " + runtime::build_options(math, real, device.fma,
-                                                  device.correct_divide_sqrt && options.correct_divide_sqrt);
+    std::string text = options.build_options.find("-cl-std=") == std::string::npos ? "-cl-std=CL1.2 " : "";
+    text += runtime::build_options(math, real, device.fma,
+                                   device.correct_divide_sqrt && options.correct_divide_sqrt);
     if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
     if (!options.build_options.empty()) text += ' ' + options.build_options;
     return text;

@@ -35,6 +35,15 @@ std::string_view directive(std::string_view line) {
     return line.substr(begin, end == line.npos ? end : end - begin);
 }
 
+const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
+
+// Whether the first directive stands for a guard.
+bool has_pragma_once(const std::vector<std::string>& lines) {
+    const auto first = std::find_if(lines.begin(), lines.end(),
+                                    [](const std::string& line) { return !directive(line).empty(); });
+    return first != lines.end() && directive(*first) == "pragma" && first->find("once") != first->npos;
+}
+
 // Whether the first two directives are those of an include guard.
 bool has_guard(const std::vector<std::string>& lines) {
     std::vector<std::string_view> words;
@@ -106,12 +115,12 @@ class Assembler {
     // `conditional`: the include stands inside an #if, so that a later one may still be needed.
     void append(const std::string& path, bool conditional) {
         const std::vector<std::string> lines = split_lines(files_.at(path));
-        const bool guarded = has_guard(lines);
+        const bool by_macro = has_guard(lines), guarded = by_macro || has_pragma_once(lines);
         if (guarded && (done_.count(path) || std::count(open_.begin(), open_.end(), path))) return;
         if (open_.size() > 64) throw DeviceError(fmt::format("{} includes itself without end", path));
         open_.push_back(path);
         out_ += fmt::format("#line 1 \"{}\"\n", path);
-        int depth = guarded ? -1 : 0;  // of conditionals within this file, its guard apart
+        int depth = by_macro ? -1 : 0;  // of conditionals within this file, its guard apart
         for (std::size_t i = 0; i < lines.size(); ++i) {
             const std::string_view word = directive(lines[i]);
             depth += word.substr(0, 2) == "if";
@@ -154,7 +163,6 @@ class Assembler {
 
     // The embedded file that an include line names, or nothing.
     std::string resolve(const std::string& path, const std::string& line) const {
-        static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
         std::smatch match;
         if (!std::regex_search(line, match, include)) return {};
         const std::filesystem::path name(match[2].str());
@@ -181,6 +189,14 @@ class Assembler {
 };
 
 }  // namespace
+
+std::vector<std::string> quoted_includes(std::string_view text) {
+    std::vector<std::string> names;
+    std::smatch match;
+    for (const std::string& line : split_lines(text))
+        if (std::regex_search(line, match, include) && match[1] == "\"") names.push_back(match[2]);
+    return names;
+}
 
 std::string assemble(std::string_view path, const Assembly& assembly, const std::vector<SourceFile>& files) {
     return Assembler(assembly, files).assemble(std::string(path));

@@ -26,6 +26,9 @@ struct Substitution {
     int id = 0;
 };
 
+// The names in quotes that a file includes.
+std::vector<std::string> quoted_includes(std::string_view text);
+
 // What assemble() changes on the way.
 struct Assembly {
     std::vector<std::string> functions;  // registered names kept in registry.def; empty: all

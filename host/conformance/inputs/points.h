@@ -15,6 +15,10 @@ namespace vndf::conformance {
 
 using Direction = std::array<double, 3>;
 
+struct AlphaRange {
+    double low = 1e-3, high = 1;
+};
+
 // The directions agree with each other: wm
 // is a normal of the lobe (alpha), wi the reflection of wo about it, slope and x the slopes of wm, w = wo,
 // cos_theta = wo.z; with a world-space n all directions are turned into its frame, whose x axis is t. Cosines are those of the

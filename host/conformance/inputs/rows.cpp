@@ -92,7 +92,7 @@ double beckmann_exponent(const Direction& m, std::array<double, 2> alpha) {
 }
 
 bool at_edge(const Function& density, const double* row, runtime::Real real) {
-    return std::abs(reference::cap_margin(density.name, row, precision(real))) <= 64;
+    return std::abs(reference::cap_margin(density.model, row, precision(real))) <= 64;
 }
 
 namespace {

@@ -6,6 +6,12 @@
 
 namespace vndf::conformance {
 
+std::string to_string(Concern concern) {
+    return concern == Concern::wrong     ? "wrong"
+           : concern == Concern::inexact ? "inexact"
+                                         : "outside the domain";
+}
+
 bool Finding::passed() const {
     return biased ? std::abs(figure - limit) <= 0.1 * limit : severity() <= 1;
 }

@@ -6,13 +6,19 @@
 
 namespace vndf::conformance {
 
+// What it means that a figure is beyond its limit: a mistake, lost precision, or nothing, since it was measured where the
+// function is not claimed to be defined. Of registered functions each is a mistake.
+enum class Concern { wrong, inexact, outside };
+std::string to_string(Concern);
+
 // "pointwise, front" 1.2 of 2.
 struct Finding {
-    std::string check;      // "chi2 of the pivots", "pointwise, front", ...
-    double figure = 0;      // worst over the inputs
-    double limit = 0;       // passes if figure <= limit (p-values: figure >= limit)
-    std::string unit;       // "eps (1 + cond)", "p", ...
-    bool is_p = false;      // a p-value: small is bad
+    std::string check;  // "chi2 of the pivots", "pointwise, front", ...
+    double figure = 0;  // worst over the inputs
+    double limit = 0;   // passes if figure <= limit (p-values: figure >= limit)
+    std::string unit;   // "eps (1 + cond)", "p", ...
+    bool is_p = false;  // a p-value: small is bad
+    Concern concern = Concern::wrong;
     bool biased = false;    // a documented bias, measured: passes within 10 % of `limit`, what is documented
     std::string detail;     // further figures: "p50 0.4, max 31"
     std::string worst;      // worst input row in hex floats, "wo_x=0x1.8p-1 ..."

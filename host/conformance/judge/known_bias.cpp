@@ -20,7 +20,7 @@ constexpr double density_low = 0.06, density_high = 0.023;  // relative, for U <
 constexpr double pi = 3.14159265358979323846;
 
 bool is_fit(const Function& sampler) {
-    return sampler.name.starts_with("vndf_ggx_sample_wm_heitz_deon2014") &&
+    return sampler.model.starts_with("vndf_ggx_sample_wm_heitz_deon2014") &&
            sampler.method == Method::approximate;
 }
 

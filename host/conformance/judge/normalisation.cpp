@@ -34,7 +34,7 @@ void add_cosines(const Function& density, const std::vector<double>& row,
 // The density's own direction is the last of its vectors: wm or wi.
 Nodes nodes(const Function& density, const std::vector<double>& row, Real real) {
     const reference::QuadratureRule rule =
-        reference::Distribution(density.name, RowReader(density).lobe(row.data()), precision(real)).rule();
+        reference::Distribution(density.model, RowReader(density).lobe(row.data()), precision(real)).rule();
     const int variable = std::max(column(density, "wm_x"), column(density, "wi_x"));
     Nodes result;
     result.weight = rule.weight;
@@ -55,7 +55,7 @@ Nodes nodes(const Function& density, const std::vector<double>& row, Real real) 
 // some of them.
 double rounding_share(const Function& density, const Nodes& at, const std::vector<double>& values,
                       Real real) {
-    const auto evaluation = reference::find_evaluation<double>(density.name);
+    const auto evaluation = reference::find_evaluation<double>(density.model);
     const std::size_t step = std::max<std::size_t>(1, at.weight.size() / 256);
     double share = 0, total = 0;
     for (std::size_t i = 0; i < at.weight.size(); i += step) {

@@ -62,8 +62,8 @@ void add_invariants(const Function& sampler, const RowReader& reader, const doub
 
 template <class R>
 MapErrors map_errors(const Function& sampler, const Table& table, const Columns& results, Real real) {
-    const auto evaluation = reference::find_evaluation<R>(sampler.name);
-    const auto conditioning = reference::find_condition(sampler.name);
+    const auto evaluation = reference::find_evaluation<R>(sampler.model);
+    const auto conditioning = reference::find_condition(sampler.model);
     const RowReader reader(sampler);
     const double unit = epsilon(real);
     std::vector<MapErrors> parts(thread_count());
@@ -104,8 +104,8 @@ namespace {
 
 template <class R>
 void add_exact(const Function& plain, const Table& table, Real real, ExactMap& exact) {
-    const auto evaluation = reference::find_evaluation<R>(plain.name);
-    const auto conditioning = reference::find_condition(plain.name);
+    const auto evaluation = reference::find_evaluation<R>(plain.model);
+    const auto conditioning = reference::find_condition(plain.model);
     const RowReader reader(plain);
     parallel_for(table.rows(), 512, [&](unsigned, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

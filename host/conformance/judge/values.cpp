@@ -27,7 +27,7 @@ double exponent(const Function& function, const RowReader& reader, const double*
     // Seen from above sigma and the shadowing terms are sums of 1 and what the exponential leaves: its error is theirs no
     // more.
     const bool from_above = wo[2] >= 0 && (!local.has_wi || wi[2] >= 0);
-    if (from_above && !function.name.starts_with("vndf_beckmann_lambda")) return 0;
+    if (from_above && !function.model.starts_with("vndf_beckmann_lambda")) return 0;
     return local.has_wi ? std::max(angle(wo), angle(wi)) : angle(wo);
 }
 
@@ -111,7 +111,7 @@ double error_of(const Judge& j, const double* row, const R* exact, const R& size
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
     if (j.function.unit == Unit::condition) {
-        const auto evaluation = reference::find_evaluation<double>(j.function.name);
+        const auto evaluation = reference::find_evaluation<double>(j.function.model);
         double condition = absolute_condition(j.function, evaluation, row, precision(j.real));
         // In double a lobe may be narrower than a rounding error of float.
         if (j.real == Real::f64)
@@ -133,7 +133,7 @@ double error_at(const Judge& j, std::size_t i) {
     const std::vector<double> row = j.table.row(i);
     const std::vector<R> in(row.begin(), row.end());
     R exact[4];
-    reference::find_evaluation<R>(j.function.name)(in.data(), exact, precision(j.real));
+    reference::find_evaluation<R>(j.function.model)(in.data(), exact, precision(j.real));
     double worst = std::numeric_limits<double>::quiet_NaN();
     R size = 0, difference = 0;
     for (std::size_t k = 0; k < j.function.outputs.size(); ++k) {

@@ -12,12 +12,20 @@ namespace vndf::conformance {
 Verdict FunctionReport::verdict() const {
     const auto any = [&](auto predicate) { return std::any_of(findings.begin(), findings.end(), predicate); };
     // No finding is no evidence.
-    if (findings.empty() || any([](const Finding& f) { return !f.passed(); })) return Verdict::fail;
+    const auto failed = [&](Concern concern) {
+        return any([=](const Finding& f) { return f.concern == concern && !f.passed(); });
+    };
+    if (findings.empty() || failed(Concern::wrong)) return Verdict::fail;
+    if (failed(Concern::inexact)) return Verdict::inexact;
     return any([](const Finding& f) { return f.biased; }) ? Verdict::known_bias : Verdict::pass;
 }
 
 const Finding* FunctionReport::worst() const {
-    const auto key = [](const Finding& f) { return std::pair(!f.passed(), f.biased ? 1e9 : f.severity()); };
+    // Mistakes before lost precision, and what was measured outside of the domain last of all.
+    const auto key = [](const Finding& f) {
+        const int concern = f.passed() ? 3 : static_cast<int>(f.concern);
+        return std::tuple(f.concern != Concern::outside, -concern, f.biased ? 1e9 : f.severity());
+    };
     const auto found = std::max_element(findings.begin(), findings.end(),
                                         [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
     return found == findings.end() ? nullptr : &*found;
@@ -30,7 +38,17 @@ bool Report::passed() const {
 }
 
 std::string to_string(Verdict verdict) {
-    return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "FAIL" : "known bias";
+    switch (verdict) {
+        case Verdict::pass:
+            return "pass";
+        case Verdict::fail:
+            return "FAIL";
+        case Verdict::known_bias:
+            return "known bias";
+        case Verdict::inexact:
+            return "inexact";
+    }
+    return {};
 }
 
 namespace {
@@ -39,6 +57,11 @@ std::string figure_text(const Finding& f) {
     const char* const relation = f.biased ? "documented:" : f.is_p ? "at least" : "at most";
     return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, relation, f.limit,
                        f.unit.empty() ? "" : " ", f.unit);
+}
+
+std::string headline(const Finding& finding) {
+    if (finding.passed()) return "known bias";
+    return finding.concern == Concern::wrong ? "FAILED" : to_string(finding.concern);
 }
 
 }  // namespace
@@ -61,20 +84,27 @@ std::string format_table(const Report& report) {
     for (const FunctionReport& f : report.functions)
         for (const Finding& finding : f.findings)
             if (!finding.passed() || finding.biased)
-                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", finding.passed() ? "known bias" : "FAILED",
-                                    f.function->name, figure_text(finding),
-                                    finding.detail.empty() ? "" : "; ", finding.detail, finding.worst);
+                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", headline(finding), f.function->name,
+                                    figure_text(finding), finding.detail.empty() ? "" : "; ", finding.detail,
+                                    finding.worst);
+    for (const FunctionReport& f : report.functions) {
+        if (!f.diagnosis.empty()) text += fmt::format("\n{}: {}\n", f.function->name, f.diagnosis);
+        if (!f.not_judged.empty())
+            text += fmt::format("\n{}: not judged: {}\n", f.function->name, f.not_judged);
+    }
     const auto count = [&](Verdict verdict) {
         return std::count_if(report.functions.begin(), report.functions.end(),
                              [&](const FunctionReport& f) { return f.verdict() == verdict; });
     };
     text += fmt::format("\n{} on {}\n  {}\n", report.math + " " + report.real, report.device, report.options);
     text += fmt::format(
-        "{} functions: {} pass, {} known bias, {} fail; {:.0f} s, seed {}\n"
+        "{} functions: {} pass, {} known bias{}, {} fail; {:.0f} s, seed {}\n"
         "{} statistical tests, {} samples a lobe; false alarms in the whole run below {:g} (Sidak: {:.3g} a "
         "test)\n",
-        report.functions.size(), count(Verdict::pass), count(Verdict::known_bias), count(Verdict::fail),
-        report.seconds, report.seed, report.tests, report.samples, report.family_rate, report.level);
+        report.functions.size(), count(Verdict::pass), count(Verdict::known_bias),
+        count(Verdict::inexact) ? fmt::format(", {} inexact", count(Verdict::inexact)) : "",
+        count(Verdict::fail), report.seconds, report.seed, report.tests, report.samples, report.family_rate,
+        report.level);
     if (report.bit_rows > 0) text += format_differences(report.bits, report.bit_rows);
     return text;
 }
@@ -87,6 +117,7 @@ std::string format_json(const Report& report) {
             findings.push_back({{"check", finding.check},
                                 {"passed", finding.passed()},
                                 {"known_bias", finding.biased},
+                                {"concern", to_string(finding.concern)},
                                 {"figure", finding.figure},
                                 {"limit", finding.limit},
                                 {"limit_is", finding.is_p ? "minimum" : "maximum"},
@@ -97,6 +128,8 @@ std::string format_json(const Report& report) {
         functions.push_back({{"name", f.function->name},
                              {"kind", std::string(to_string(f.function->kind))},
                              {"verdict", to_string(f.verdict())},
+                             {"diagnosis", f.diagnosis},
+                             {"not_judged", f.not_judged},
                              {"findings", std::move(findings)}});
     }
     nlohmann::ordered_json bits = nlohmann::ordered_json::array();
@@ -160,9 +193,10 @@ std::string format_junit(const Report& report) {
             cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", xml(f.function->name),
                                  xml(finding.check));
             const std::string text = xml(figure_text(finding) + "\n" + finding.detail + "\n" + finding.worst);
-            if (finding.passed()) {
-                cases +=
-                    fmt::format("<system-out>{}{}</system-out>", finding.biased ? "known bias: " : "", text);
+            if (finding.passed() || finding.concern != Concern::wrong) {
+                const std::string word = finding.passed() ? "" : to_string(finding.concern) + ": ";
+                cases += fmt::format("<system-out>{}{}</system-out>", finding.biased ? "known bias: " : word,
+                                     text);
             } else {
                 ++failures;
                 cases += fmt::format("<failure message=\"{}\">{}</failure>", xml(figure_text(finding)), text);

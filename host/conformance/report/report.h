@@ -11,11 +11,13 @@
 
 namespace vndf::conformance {
 
-enum class Verdict { pass, fail, known_bias };
+enum class Verdict { pass, fail, known_bias, inexact };  // inexact: not wrong, but less precise than ours
 
 struct FunctionReport {
     const Function* function = nullptr;
     std::vector<Finding> findings;
+    // Of a user's function: the likeliest known mistake and what speaks for it, and what was not judged; or empty.
+    std::string diagnosis = {}, not_judged = {};
 
     Verdict verdict() const;
     const Finding* worst() const;  // the finding of greatest severity; nullptr if there is none
