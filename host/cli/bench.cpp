@@ -223,19 +223,6 @@ std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
     return batches;
 }
 
-// "0.01:0.5"
-bench::AlphaRange parse_alpha(const std::string& text) {
-    bench::AlphaRange range;
-    const char *const first = text.data(), *const last = first + text.size();
-    const auto low = std::from_chars(first, last, range.low);
-    const bool colon = low.ec == std::errc() && low.ptr != last && *low.ptr == ':';
-    const auto high = std::from_chars(colon ? low.ptr + 1 : last, last, range.high);
-    if (!colon || high.ec != std::errc() || high.ptr != last || !(range.low >= 1e-8) ||
-        !(range.low <= range.high) || !(range.high <= 1e3))
-        throw InputError(fmt::format("--alpha: '{}' is no range LO:HI with 1e-8 <= LO <= HI <= 1000", text));
-    return range;
-}
-
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
                                                          const bench::Session& session,
                                                          const Bench& options) {
@@ -402,11 +389,7 @@ void add_bench(CLI::App& app, Common& common) {
             "where wo lies: above the surface, or anywhere (default)")
         ->check(CLI::IsMember({"front", "sphere"}))
         ->needs(advise);
-    command
-        ->add_option_function<std::string>(
-            "--alpha", [options](const std::string& text) { options->alpha = parse_alpha(text); },
-            "range of roughness that is measured (default 0.001:1)")
-        ->type_name("LO:HI");
+    add_alpha(*command, options->alpha, "range of roughness that is measured (default 0.001:1)");
     CLI::Option* effects = command
                                ->add_flag("--effects", options->effects,
                                           "what each effect of a material costs, and nothing else: "

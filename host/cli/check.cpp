@@ -12,6 +12,7 @@
 #include "conformance/runs/check.h"
 #include "conformance/judge/digest.h"
 #include "conformance/runs/exhaustive.h"
+#include "conformance/runs/user_check.h"
 #include "cli/streams.h"
 #include "error.h"
 
@@ -28,6 +29,7 @@ struct Check {
     bool exhaustive = false;
     double minutes = 0;  // 0: to the end
     std::string slice = "1/1";
+    conformance::UserOptions user;  // of --kernel
 };
 
 // One hash a function, and nothing else on the standard output.
@@ -118,7 +120,9 @@ void run_exhaustive(const Check& options, Common& common) {
 void run_check(const Check& options, Common& common) {
     if (options.exhaustive) return run_exhaustive(options, common);
     if (options.digest) return run_digest(options, common);
-    const auto selected = selected_by(options.only);
+    std::optional<conformance::UserKernel> user;
+    if (!options.user.file.empty()) user.emplace(options.user);
+    const auto selected = user ? std::vector<const Function*>() : selected_by(options.only);
     require_distinct({{"--json", options.json}, {"--junit", options.junit}});
     const bool table = !is_standard_output(options.json) && !is_standard_output(options.junit);
     if (table) require_output();
@@ -133,19 +137,57 @@ void run_check(const Check& options, Common& common) {
     if (!options.only.empty()) program.functions = conformance::needed(selected);
     const Progress progress(common.quiet);
     progress("building the program", 0);
-    runtime::DeviceEvaluator evaluator(device, math, options.target.real(), program);
+    runtime::DeviceEvaluator evaluator =
+        user ? user->evaluator(device, options.target.real())
+             : runtime::DeviceEvaluator(device, math, options.target.real(), program);
     conformance::CheckOptions check;
     check.seed = common.seed;
     check.quick = options.quick;
     check.random_points = options.points;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
-    const conformance::Report report = conformance::check(evaluator, math, selected, check);
+    const conformance::Report report = user ? conformance::check_user_kernel(*user, evaluator, check)
+                                            : conformance::check(evaluator, math, selected, check);
     progress.clear();
 
     if (json) json->write(conformance::format_json(report)), json->commit();
     if (junit) junit->write(conformance::format_junit(report)), junit->commit();
     if (table) put(conformance::format_table(report));
     common.exit_status = report.passed() ? 0 : 1;
+}
+
+// What is judged in place of our functions.
+void add_user(CLI::App& command, const std::shared_ptr<Check>& options) {
+    conformance::UserOptions& user = options->user;
+    CLI::Option* kernel = command.add_option(
+        "--kernel", user.file, "judge a function of this file of OpenCL C instead: kernels/README.md, Adapters");
+    CLI::Option* function =
+        command.add_option("--function", user.function, "its name there; of a bsdf that of its value")->needs(kernel);
+    CLI::Option* as =
+        command
+            .add_option("--as", user.as,
+                        fmt::format("what it is to be: {}, bsdf,\nor a function of clvndf list, whose map or value is "
+                                    "compared as well",
+                                    fmt::join(conformance::general_names(), ", ")))
+            ->needs(kernel);
+    kernel->needs(function)->needs(as)->type_name("FILE");
+    for (const char* other : {"--only", "--math", "--exhaustive", "--digest"})
+        kernel->excludes(command.get_option(other));
+    command.add_option("--pdf", user.pdf, "of a sampler or a bsdf, the name of its density, judged as well")
+        ->needs(kernel);
+    command.add_option("--sample", user.sample, "of a bsdf, the name of its sampler")->needs(kernel);
+    command.add_option("--options", user.options, "build options for the file")->needs(kernel);
+    command
+        .add_option_function<std::string>(
+            "--domain",
+            [options](const std::string& domain) {
+                options->user.scope.domain = domain == "front" ? Domain::upper : Domain::sphere;
+            },
+            "where wo lies: above the surface (default), or anywhere")
+        ->check(CLI::IsMember({"front", "sphere"}))
+        ->needs(kernel);
+    add_alpha(command, user.scope.alpha, "range of roughness that is judged (default 0.001:1)")->needs(kernel);
+    command.add_flag("--isotropic", user.scope.isotropic, "judge it where both alphas are the same alone")
+        ->needs(kernel);
 }
 
 }  // namespace
@@ -192,6 +234,7 @@ void add_check(CLI::App& app, Common& common) {
         ->needs(exhaustive);
     command->add_option("--slice", options->slice, "this part of the exhaustion only: I/N, the I-th of N")
         ->needs(exhaustive);
+    add_user(*command, options);
     command->callback(
         [options, &common] { common.action = [options, &common] { run_check(*options, common); }; });
 }

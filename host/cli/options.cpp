@@ -16,6 +16,20 @@ CLI::Option* add_only(CLI::App& command, std::string& pattern) {
                               "only functions whose name contains this, or matches it with * and ?");
 }
 
+CLI::Option* add_alpha(CLI::App& command, conformance::AlphaRange& range, const std::string& description) {
+    const auto parse = [&range](const std::string& text) {
+        const char *const first = text.data(), *const last = first + text.size();
+        const auto low = std::from_chars(first, last, range.low);
+        const bool colon = low.ec == std::errc() && low.ptr != last && *low.ptr == ':';
+        const auto high = std::from_chars(colon ? low.ptr + 1 : last, last, range.high);
+        if (!colon || high.ec != std::errc() || high.ptr != last || !(range.low >= 1e-8) ||
+            !(range.low <= range.high) || !(range.high <= 1e3))
+            throw InputError(
+                fmt::format("--alpha: '{}' is no range LO:HI with 1e-8 <= LO <= HI <= 1000", text));
+    };
+    return command.add_option_function<std::string>("--alpha", parse, description)->type_name("LO:HI");
+}
+
 std::vector<const Function*> selected_by(const std::string& pattern) {
     auto selected = conformance::select(pattern);
     if (!selected.empty()) return selected;

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "conformance/inputs/points.h"
 #include "error.h"
 #include "registry.h"
 
@@ -18,6 +19,9 @@ CLI::Option* add_device(CLI::App& command, std::string& device);
 
 // --only; `pattern` is set to what was given, empty without the option.
 CLI::Option* add_only(CLI::App& command, std::string& pattern);
+
+// --alpha LO:HI.
+CLI::Option* add_alpha(CLI::App& command, conformance::AlphaRange& range, const std::string& description);
 
 // The functions that --only selects, all without it. Throws InputError if there is none.
 std::vector<const Function*> selected_by(const std::string& pattern);

@@ -409,4 +409,66 @@ std::vector<Point> renderer_points(const Function& function, std::size_t count, 
     return points;
 }
 
+namespace {
+
+// From the range that lobes have to that of the scope.
+double moved(double alpha, const AlphaRange& range) {
+    constexpr double low = 1e-4, high = 2;
+    const double part = std::clamp(std::log(alpha / low) / std::log(high / low), 0.0, 1.0);
+    return range.low * std::pow(range.high / range.low, part);
+}
+
+std::vector<Point> corners(const Scope& scope, bool world) {
+    const AlphaRange& range = scope.alpha;
+    std::vector<std::array<double, 2>> alphas{{range.low, range.low}, {range.high, range.high}};
+    if (!world && !scope.isotropic)
+        alphas.insert(alphas.end(), {{range.low, range.high}, {range.high, range.low}});
+    std::vector<Direction> directions{{0, 0, 1}, {1e-7, 0, 1}, {0.6, 0, 0.8}, {0, 0.6, 0.8}, {-0.6, 0, 0.8},
+                                      direction(1e-3, 0.7), direction(1e-3, 0)};
+    if (scope.domain == Domain::sphere)
+        directions.insert(directions.end(), {{0.6, 0, -0.8}, direction(-1e-3, 0.7), direction(0, 0.7)});
+    std::vector<Point> points;
+    for (const auto& alpha : alphas)
+        for (const Direction& wo : directions)
+            for (const double u1 : {0.0, 0x1p-24, 0.25, 0.5, 0.75, 1 - 0x1p-24})
+                for (const double u2 : {0.0, 0x1p-24, 0.25, 0.5, 1 - 0x1p-24})
+                    points.push_back(make_point(wo, alpha, {std::sqrt(1 - u1), 6 * u2}, {0, 0, 1}, {u1, u2}, 1.5));
+    return points;
+}
+
+}  // namespace
+
+std::vector<Point> lobes(const Function& function, const Scope& scope, bool quick) {
+    std::vector<Point> points = lobes(function, quick);
+    for (Point& point : points) {
+        std::array<double, 2> alpha{moved(point.alpha[0], scope.alpha), moved(point.alpha[1], scope.alpha)};
+        if (scope.isotropic) alpha[1] = alpha[0];
+        Point moved_point = make_point({0, 0, 1}, alpha, {1, 0}, {0, 0, 1}, point.u, point.eta);
+        moved_point.wo = point.wo, moved_point.n = point.n, moved_point.t = point.t;
+        moved_point.cos_theta = point.cos_theta;
+        point = moved_point;
+    }
+    return distinct(function, points);
+}
+
+std::vector<Point> scoped_points(const Function& function, const Scope& scope, std::size_t count, std::uint64_t seed) {
+    Random random(seed);
+    const bool world = uses(function, {"n_x"});
+    std::vector<Point> points;
+    while (points.size() < count) {
+        const double height = random.chance(0.3) ? random.log_uniform(1e-3, 1) : random.uniform(1e-3, 1);
+        const double side = scope.domain == Domain::sphere && random.chance(0.3) ? -1 : 1;
+        const Direction wo = direction(side * height, random.uniform(-pi, pi));
+        const auto alpha = [&] { return random.log_uniform(scope.alpha.low, scope.alpha.high); };
+        const double x = alpha(), y = alpha();
+        const bool round = world || scope.isotropic || random.chance(0.4);
+        const Stretched normal{std::sqrt(1 - random.uniform()), random.uniform(-pi, pi)};
+        const std::array<double, 2> u{random.u(), random.u()};
+        points.push_back(make_point(wo, {x, round ? x : y}, normal, {0, 0, 1}, u, random.eta()));
+    }
+    refract_some(function, points);
+    for (const Point& point : corners(scope, world)) points.push_back(point);
+    return distinct(function, points);
+}
+
 }  // namespace vndf::conformance

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "conformance/inputs/points.h"
+#include "conformance/inputs/grids.h"
 #include "runtime/evaluator.h"
 
 namespace vndf::conformance {
@@ -18,7 +18,11 @@ struct PointwiseOptions {
     std::size_t hard_stride = 1;   // each hard_stride-th of the hard points
     std::size_t guard_stride = 1;  // and of the guards, which a percentile bears among many other points only
     bool quick = false;            // the lobes of a quick run
+    const Scope* scope = nullptr;  // of a user's function: random points in it and its corners, and its lobes, instead
 };
+
+// The lobes of a run with these options.
+std::vector<Point> lobes(const Function& function, const PointwiseOptions& options);
 
 // Random, hard and guard points as a table.
 Table pointwise_table(const Function& function, Real real, const PointwiseOptions& options);

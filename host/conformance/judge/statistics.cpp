@@ -56,6 +56,18 @@ ChiSquare chi_square(std::span<const std::uint32_t> observed, std::span<const do
     return result;
 }
 
+double same_distribution_p(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+    const double all_a = std::accumulate(a.begin(), a.end(), 0.0), all_b = std::accumulate(b.begin(), b.end(), 0.0);
+    if (!(all_a > 0 && all_b > 0)) return 0;
+    double statistic = 0, cells = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a[i] + b[i] == 0) continue;
+        const double difference = std::sqrt(all_b / all_a) * a[i] - std::sqrt(all_a / all_b) * b[i];
+        statistic += difference * difference / (a[i] + b[i]), ++cells;
+    }
+    return cells > 1 ? boost::math::cdf(complement(boost::math::chi_squared(cells - 1), statistic)) : 1;
+}
+
 double kolmogorov_p(double distance, double n) {
     const double root = std::sqrt(n);
     const double lambda = (root + 0.12 + 0.11 / root) * distance;

@@ -22,6 +22,9 @@ struct ChiSquare {
 ChiSquare chi_square(std::span<const std::uint32_t> observed, std::span<const double> expected,
                      double pool_below = 5);
 
+// The chance that two samples of one distribution differ by as much as these counts in the same cells.
+double same_distribution_p(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
+
 // Outcome of the Kolmogorov-Smirnov test against the uniform distribution on [0, 1].
 struct Kolmogorov {
     double distance = 0;    // largest |F_n - F| over the bin edges: at most the true distance

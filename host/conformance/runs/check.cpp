@@ -14,6 +14,7 @@
 #include "conformance/judge/lobes.h"
 #include "parallel.h"
 #include "conformance/judge/pointwise.h"
+#include "conformance/judge/user.h"
 #include "conformance/judge/values.h"
 
 namespace vndf::conformance {
@@ -111,9 +112,11 @@ class Run {
         report_.quick = options.quick;
         report_.samples = std::size_t{1} << (options.quick ? 18 : 20);
         report_.family_rate = family_rate;
+        pointwise_.quick = options.quick;
+        pointwise_.scope = options.scope;
         for (const Function* function : selected) {
             if (is_plain_sampler(*function))
-                report_.tests += lobes(*function, options.quick).size() * tests_per_lobe(*function);
+                report_.tests += lobes(*function, pointwise_).size() * tests_per_lobe(*function);
             work_total_ += work(*function);
         }
         report_.level = sidak(family_rate, report_.tests);
@@ -122,7 +125,6 @@ class Run {
         pointwise_.random_points =
             options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
         pointwise_.hard_stride = options.quick ? 7 : 1;
-        pointwise_.quick = options.quick;
     }
 
     Report run(const std::vector<const Function*>& selected) {
@@ -130,11 +132,12 @@ class Run {
         for (const Function* function : selected) {
             options_.progress(function->name, work_done_ / work_total_);
             report_.functions.push_back({function, findings(*function)});
-            for (Finding& finding : check_extremes(evaluator_, *function, pointwise_))
-                report_.functions.back().findings.push_back(std::move(finding));
+            if (!options_.scope)
+                for (Finding& finding : check_extremes(evaluator_, *function, pointwise_))
+                    report_.functions.back().findings.push_back(std::move(finding));
             work_done_ += work(*function);
         }
-        if (math_ == runtime::Math::strict) compare_bits(selected);
+        if (math_ == runtime::Math::strict && !options_.scope) compare_bits(selected);
         options_.progress("", 1);
         report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::move(report_);
@@ -144,7 +147,7 @@ class Run {
     // In lobes.
     double work(const Function& function) const {
         return 2 +
-               (is_plain_sampler(function) ? static_cast<double>(lobes(function, options_.quick).size()) : 0);
+               (is_plain_sampler(function) ? static_cast<double>(lobes(function, pointwise_).size()) : 0);
     }
 
     void compare_bits(const std::vector<const Function*>& selected) {
@@ -155,7 +158,8 @@ class Run {
     }
 
     std::vector<Finding> findings(const Function& function) {
-        std::vector<Finding> all = check_pointwise(evaluator_, function, pointwise_);
+        std::vector<Finding> all = options_.scope ? check_user(evaluator_, function, pointwise_)
+                                                  : check_pointwise(evaluator_, function, pointwise_);
         const auto add = [&](std::vector<Finding> more) {
             std::move(more.begin(), more.end(), std::back_inserter(all));
         };
@@ -184,9 +188,9 @@ class Run {
             judging.pop_front();
         };
         // Numbered by function and lobe, so that --only repeats a run's samples.
-        std::uint64_t stream = static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
+        std::uint64_t stream = options_.scope ? 0 : static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
         double done = 0;
-        for (const Point& lobe : lobes(sampler, options_.quick)) {
+        for (const Point& lobe : lobes(sampler, pointwise_)) {
             options_.progress(sampler.name, (work_done_ + ++done) / work_total_);
             Batch<T> batch = drawer.draw(lobe, stream++);
             std::vector<double> row = batch.row;

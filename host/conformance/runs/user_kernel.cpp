@@ -179,7 +179,7 @@ void UserKernel::describe() {
         for (const Function& other : functions_)
             if (other.name == name)
                 throw InputError(fmt::format("'{}' is given as two functions; each has one name", name));
-        f.name = f.plain = name;
+        f.name = name;
         functions_.push_back(std::move(f));
     };
 
@@ -204,16 +204,16 @@ void UserKernel::describe() {
     if (!ours_) throw unknown(options_.as);
     Function f = *ours_;
     if (any_map) f.model.clear(), f.method = Method::exact, f.density = any_map->density;
-    if (f.kind == Kind::sampler) {
-        f.domain = options_.scope.domain == Domain::upper ? Domain::upper : f.domain;
-        f.ndf = find_function(f.density)->ndf;
-    }
+    if (f.kind == Kind::sampler) f.ndf = find_function(f.density)->ndf;
+    if (options_.scope.domain == Domain::upper) f.domain = Domain::upper;
     add(f, options_.function);
     if (options_.pdf.empty()) return;
     if (f.kind != Kind::sampler)
         throw InputError(
             fmt::format("--pdf '{}': of a sampler or a bsdf; --as {} is none", options_.pdf, options_.as));
-    add(*find_function(f.density), options_.pdf);
+    Function density = *find_function(f.density);
+    density.domain = f.domain;
+    add(density, options_.pdf);
 }
 
 // The files that are there among those that a file includes, as it names them; the compiler says which are not.

@@ -7,18 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "conformance/inputs/points.h"
+#include "conformance/inputs/grids.h"
 #include "registry.h"
 #include "runtime/device_evaluator.h"
 
 namespace vndf::conformance {
-
-// Where a user's function is judged.
-struct Scope {
-    Domain domain = Domain::upper;  // wo.z >= 0, or every wo
-    AlphaRange alpha;
-    bool isotropic = false;  // alpha.x = alpha.y alone
-};
 
 struct UserOptions {
     std::string file;      // of OpenCL C

@@ -1,0 +1,602 @@
+#include "conformance/judge/mistakes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "conformance/inputs/rows.h"
+#include "conformance/judge/errors.h"
+#include "conformance/judge/statistics.h"
+#include "parallel.h"
+#include "splitmix64.h"
+
+namespace vndf::conformance {
+namespace {
+
+using Alpha = std::array<double, 2>;
+using Columns = std::vector<std::vector<double>>;
+
+Direction operator+(const Direction& a, const Direction& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Direction operator*(double s, const Direction& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+Direction operator-(const Direction& a) {
+    return -1.0 * a;
+}
+Direction normalised(const Direction& a) {
+    return 1 / length(a) * a;
+}
+Direction cross(const Direction& a, const Direction& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Direction reflect(const Direction& o, const Direction& m) {
+    return 2 * dot(o, m) * m + -o;
+}
+
+// A function of the reference by name.
+template <class... Vectors>
+double value(const std::string& name, const Vectors&... vectors) {
+    std::vector<double> in;
+    (in.insert(in.end(), vectors.begin(), vectors.end()), ...);
+    double out[4] = {};
+    reference::find_evaluation<double>(name)(in.data(), out, reference::Precision::f32);
+    return out[0];
+}
+
+// --- Samplers ---
+
+// What draws a direction.
+using Map = std::function<Direction(const Direction& wo, const Alpha& alpha, double u1, double u2)>;
+
+Map map_of(const std::string& sampler) {
+    const auto evaluation = reference::find_evaluation<double>(sampler);
+    const bool plain = sampler.ends_with("walter2007");
+    return [=](const Direction& o, const Alpha& a, double u1, double u2) {
+        const double in[7] = {o[0], o[1], o[2], a[0], a[1], u1, u2};
+        double out[4];
+        evaluation(in + (plain ? 3 : 0), out, reference::Precision::f32);
+        return Direction{out[0], out[1], out[2]};
+    };
+}
+
+Direction stretched(const Direction& w, const Alpha& a) {
+    return normalised({a[0] * w[0], a[1] * w[1], w[2]});
+}
+
+// The listings of 2017 and 2018 with T2 the wrong way round, V x T1 in place of T1 x V.
+enum class Listing { heitz2017, heitz2018 };
+Direction flipped(Listing listing, bool clamped, const Direction& o, const Alpha& a, double u1, double u2) {
+    constexpr double pi = 3.14159265358979323846;
+    const Direction v = stretched(o, a);
+    const Direction t1 = std::hypot(v[0], v[1]) > 0 ? normalised({-v[1], v[0], 0}) : Direction{1, 0, 0};
+    // 2017 has T1 = V x Z, the other way.
+    const Direction first = listing == Listing::heitz2017 ? -t1 : t1, t2 = cross(first, v);
+    double p1 = 0, p2 = 0;
+    if (listing == Listing::heitz2018) {
+        const double r = std::sqrt(u1), phi = 2 * pi * u2, s = (1 + v[2]) / 2;
+        p1 = r * std::cos(phi), p2 = (1 - s) * std::sqrt(1 - p1 * p1) + s * r * std::sin(phi);
+    } else {
+        const double share = 1 / (1 + v[2]), r = std::sqrt(u1);
+        const double phi = u2 < share ? u2 / share * pi : pi + (u2 - share) / (1 - share) * pi;
+        p1 = r * std::cos(phi), p2 = r * std::sin(phi) * (u2 < share ? 1 : v[2]);
+    }
+    Direction n = p1 * first + -p2 * t2 + std::sqrt(std::max(0.0, 1 - p1 * p1 - p2 * p2)) * v;
+    if (clamped) n[2] = std::max(0.0, n[2]);
+    return normalised({a[0] * n[0], a[1] * n[1], n[2]});
+}
+
+// The listing of 2017 as printed, where ?: takes all before it for its condition.
+Direction printed2017(const Direction& o, const Alpha& a, double u1, double u2) {
+    constexpr double pi = 3.14159265358979323846;
+    const Direction v = stretched(o, a);
+    const Direction t1 = v[2] < 0.9999 ? normalised(cross(v, {0, 0, 1})) : Direction{1, 0, 0}, t2 = cross(t1, v);
+    const double share = 1 / (1 + v[2]), r = std::sqrt(u1);
+    const double phi = u2 < share ? u2 / share * pi : pi + (u2 - share) / (1 - share) * pi;
+    const double p1 = r * std::cos(phi), p2 = r * std::sin(phi) * (u2 < share ? 1 : 0) != 0 ? 1 : v[2];
+    const Direction n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0, 1 - p1 * p1 - p2 * p2)) * v;
+    return normalised({a[0] * n[0], a[1] * n[1], std::max(0.0, n[2])});
+}
+
+struct Hypothesis {
+    std::string what;
+    Map map;
+};
+
+Alpha each(const Alpha& a, double (*f)(double)) {
+    return {f(a[0]), f(a[1])};
+}
+double squared(double x) {
+    return x * x;
+}
+double root(double x) {
+    return std::sqrt(x);
+}
+
+// Normals of a view, or of the whole surface (plain), drawn wrongly.
+std::vector<Hypothesis> of_normals(Ndf ndf, bool plain) {
+    const bool ggx = ndf == Ndf::ggx;
+    const auto visible_of = [](bool ggx) {
+        return map_of(ggx ? "vndf_ggx_sample_wm_dupuy2023" : "vndf_beckmann_sample_wm_jakob2014");
+    };
+    const auto all_of = [](bool ggx) {
+        return map_of(ggx ? "vndf_ggx_sample_wm_walter2007" : "vndf_beckmann_sample_wm_walter2007");
+    };
+    const Map right = plain ? all_of(ggx) : visible_of(ggx), other = plain ? all_of(!ggx) : visible_of(!ggx);
+    std::vector<Hypothesis> all{{"", right}};
+    const auto add = [&](const char* what, Map map) { all.push_back({what, std::move(map)}); };
+    const auto alpha = [&](const char* what, auto change) {
+        add(what, [=](const Direction& o, const Alpha& a, double u1, double u2) { return right(o, change(a), u1, u2); });
+    };
+    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
+    alpha("alpha is squared once more, as if it were a perceptual roughness",
+          [](const Alpha& a) { return each(a, squared); });
+    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
+    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
+    alpha("alpha.x is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[1], a[1]}; });
+    add(ggx ? "it draws from Beckmann's distribution, not from that of GGX"
+            : "it draws from the distribution of GGX, not from Beckmann's",
+        other);
+    if (plain)
+        add("it draws visible normals, which depend on wo", visible_of(ggx));
+    else
+        add("visibility (G1) is left out: it draws from D cos, whatever the view", all_of(ggx));
+    const auto u = [&](const char* what, const char* sampler, auto change) {
+        add(what, [=, map = map_of(sampler)](const Direction& o, const Alpha& a, double u1, double u2) {
+            change(u1, u2);
+            return map(o, a, u1, u2);
+        });
+    };
+    const char* const half_azimuth = "half of a lobe is left out: the azimuth takes half a turn (pi u in place of 2 pi u)";
+    const char* const half_slope = "half of a lobe is left out: slopes of one sign alone";
+    const char* const half_disk = "half of a lobe is left out: one of the two half disks";
+    const auto first_half = [](double& u1, double&) { u1 /= 2; };
+    const auto second_half = [](double&, double& u2) { u2 /= 2; };
+    const auto upper = [](double&, double& u2) { u2 = .5 + u2 / 2; };
+    const char* const plain_map = ggx ? "vndf_ggx_sample_wm_walter2007" : "vndf_beckmann_sample_wm_walter2007";
+    if (plain) {
+        u(half_azimuth, plain_map, first_half), u(half_azimuth, plain_map, second_half);
+        return all;
+    }
+    add("half of a lobe is left out, all on one side of the plane y = 0 of stretched space",
+        [=](const Direction& o, const Alpha& a, double u1, double u2) {
+            Direction m = right(o, a, u1, u2);
+            m[1] = std::abs(m[1]);
+            return m;
+        });
+    if (ggx) {
+        u(half_azimuth, "vndf_ggx_sample_wm_dupuy2023", first_half);
+        u(half_azimuth, "vndf_ggx_sample_wm_heitz2018", first_half);
+        u(half_disk, "vndf_ggx_sample_wm_heitz2017", second_half);
+        u("the radius in the disk lacks its square root", "vndf_ggx_sample_wm_heitz2018",
+          [](double&, double& u2) { u2 *= u2; });
+        u("the radius in the disk lacks its square root", "vndf_ggx_sample_wm_heitz2017",
+          [](double& u1, double&) { u1 *= u1; });
+        u(half_slope, "vndf_ggx_sample_wm_heitz_deon2014_exact", upper);
+        u(half_slope, "vndf_ggx_sample_wm_heitz_deon2014_exact", second_half);
+        for (const Listing listing : {Listing::heitz2018, Listing::heitz2017})
+            for (const bool clamped : {true, false})
+                add("T2 points the wrong way: V x T1 in place of T1 x V",
+                    [=](const Direction& o, const Alpha& a, double u1, double u2) {
+                        return flipped(listing, clamped, o, a, u1, u2);
+                    });
+        add("?: takes the whole product before it for its condition, as in the listing of 2017", printed2017);
+    } else {
+        u(half_slope, "vndf_beckmann_sample_wm_jakob2014", upper);
+        u(half_slope, "vndf_beckmann_sample_wm_jakob2014", second_half);
+    }
+    const auto view = [&](const char* what, auto change) {
+        add(what, [=](const Direction& o, const Alpha& a, double u1, double u2) { return right(change(o), a, u1, u2); });
+    };
+    view("wo is taken to point to the surface: its sign is wrong", [](const Direction& o) { return -o; });
+    view("wo is turned by half a turn about the normal: x and y have the wrong sign",
+         [](const Direction& o) { return Direction{-o[0], -o[1], o[2]}; });
+    view("wo is taken for its mirror image under the surface",
+         [](const Direction& o) { return Direction{o[0], o[1], -o[2]}; });
+    add("y is taken for up, in place of z", [=](const Direction& o, const Alpha& a, double u1, double u2) {
+        const Direction m = right({o[0], o[2], o[1]}, a, u1, u2);
+        return Direction{m[0], m[2], m[1]};
+    });
+    add("wo is not stretched by alpha", [=](const Direction& o, const Alpha& a, double u1, double u2) {
+        return stretched(right(o, {1, 1}, u1, u2), a);
+    });
+    add("the normal is not stretched back by alpha", [=](const Direction& o, const Alpha& a, double u1, double u2) {
+        return right(stretched(o, a), {1, 1}, u1, u2);
+    });
+    add("one random number is used for both", [=](const Direction& o, const Alpha& a, double u1, double) {
+        return right(o, a, u1, u1);
+    });
+    return all;
+}
+
+std::vector<Hypothesis> hypotheses_of(const Function& sampler) {
+    const bool plain = sampler.density.ends_with("walter2007");
+    std::vector<Hypothesis> normals = of_normals(sampler.ndf, plain);
+    const Map right = normals.front().map;
+    if (sampler.result == "WM") {
+        normals.push_back({"the normal points into the surface: its sign is wrong",
+                           [=](const Direction& o, const Alpha& a, double u1, double u2) {
+                               return -right(o, a, u1, u2);
+                           }});
+        normals.push_back({"the reflected direction is returned, not the normal",
+                           [=](const Direction& o, const Alpha& a, double u1, double u2) {
+                               return reflect(o, right(o, a, u1, u2));
+                           }});
+        return normals;
+    }
+    std::vector<Hypothesis> all;
+    const auto reflected = [](const Map& map) {
+        return [=](const Direction& o, const Alpha& a, double u1, double u2) {
+            return reflect(o, map(o, a, u1, u2));
+        };
+    };
+    const bool any = sampler.density.ends_with("_pdf_wi");
+    if (!any)
+        all.push_back({"", map_of(sampler.density == "vndf_ggx_pdf_wi_eto2023" ? "vndf_ggx_sample_wi_eto2023"
+                                  : sampler.density == "vndf_ggx_pdf_wi_conic2026"
+                                      ? "vndf_ggx_sample_wi_conic2026"
+                                      : "vndf_ggx_sample_wi_eto2023_polygon")});
+    for (const Hypothesis& h : normals) all.push_back({h.what, reflected(h.map)});
+    if (!any) all[1].what = "it draws from all visible normals, not from a bounded cap of them";
+    if (any && sampler.ndf == Ndf::ggx)
+        all.push_back({"it draws from the bounded cap of 2023: judge it --as ggx_sample_wi_eto2023",
+                       map_of("vndf_ggx_sample_wi_eto2023")});
+    all.push_back({"the normal is returned, not the reflected direction", right});
+    all.push_back({"the direction points into the surface: its sign is wrong",
+                   [=](const Direction& o, const Alpha& a, double u1, double u2) {
+                       return -reflect(o, right(o, a, u1, u2));
+                   }});
+    return all;
+}
+
+// Moderate lobes, in which mistakes look different.
+std::vector<Point> plain_lobes(const Function& function, const Scope& scope) {
+    const double high = std::clamp(.6, scope.alpha.low, scope.alpha.high),
+                 low = std::clamp(high / 4, scope.alpha.low, scope.alpha.high);
+    std::vector<Alpha> alphas{{high, low}, {low, high}, {high, high}};
+    if (scope.isotropic || column(function, "alpha_y") < 0) alphas = {{high, high}, {low, low}};
+    std::vector<Point> points;
+    for (const Alpha& alpha : alphas)
+        for (const auto& wo : {direction(.6, 0.7), direction(.3, 2), direction(.9, -2.2)})
+            points.push_back(make_point(wo, alpha, {1, 0}, {0, 0, 1}, {.5, .5}, 1.5));
+    return points;
+}
+
+constexpr std::size_t sample_count = std::size_t{1} << 15;
+constexpr double least_p = 1e-5;
+
+// Cells that hold about as many of some samples each: quantiles of z, and in each of the azimuth.
+class Cells {
+  public:
+    static constexpr std::size_t n = 12;
+    explicit Cells(std::vector<Direction> some) {
+        std::sort(some.begin(), some.end(), [](const Direction& a, const Direction& b) { return a[2] < b[2]; });
+        const std::size_t part = some.size() / n;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i > 0) heights_.push_back(some[i * part][2]);
+            std::vector<double> turns;
+            for (std::size_t k = i * part; k < (i + 1) * part; ++k) turns.push_back(std::atan2(some[k][1], some[k][0]));
+            std::sort(turns.begin(), turns.end());
+            std::vector<double>& edges = azimuths_.emplace_back();
+            for (std::size_t j = 1; j < n; ++j) edges.push_back(turns[j * part / n]);
+        }
+    }
+    std::size_t operator()(const Direction& d) const {
+        const auto place = [](const std::vector<double>& edges, double x) {
+            return static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), x) - edges.begin());
+        };
+        const std::size_t row = place(heights_, d[2]);
+        return row * n + place(azimuths_[row], std::atan2(d[1], d[0]));
+    }
+
+  private:
+    std::vector<double> heights_;
+    std::vector<std::vector<double>> azimuths_;
+};
+
+// One lobe's samples, counted but for a quarter of them, which the cells are made from.
+struct Drawn {
+    Point lobe;
+    Cells cells;
+    std::vector<std::uint32_t> counts;
+    std::size_t counted = 0;
+};
+
+std::optional<Drawn> draw(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Point& lobe,
+                          std::uint64_t seed) {
+    SplitMix64 random(seed);
+    std::vector<Point> points(sample_count, lobe);
+    for (Point& point : points) point.u = {random.uniform(), random.uniform()};
+    const Columns d = evaluate(evaluator, sampler, tabulate(sampler, points, evaluator.input_real()));
+    std::vector<Direction> directions;
+    for (std::size_t i = 0; i < sample_count; ++i) {
+        const Direction w{d[0][i], d[1][i], d[2][i]};
+        if (std::isfinite(dot(w, w))) directions.push_back(w);
+    }
+    if (directions.size() < sample_count / 2) return std::nullopt;
+    const auto quarter = directions.begin() + static_cast<std::ptrdiff_t>(directions.size() / 4);
+    Drawn drawn{lobe, Cells({directions.begin(), quarter}), std::vector<std::uint32_t>(Cells::n * Cells::n), 0};
+    for (auto at = quarter; at != directions.end(); ++at) ++drawn.counts[drawn.cells(*at)], ++drawn.counted;
+    return drawn;
+}
+
+// The chance that these samples and as many of the map differ so much. Those of the map are drawn anew.
+double chance_of(const Drawn& drawn, const Map& map, std::uint64_t seed) {
+    SplitMix64 random(seed);
+    std::vector<std::uint32_t> counts(drawn.counts.size());
+    for (std::size_t i = 0; i < drawn.counted; ++i) {
+        const double u1 = random.uniform(), u2 = random.uniform();
+        ++counts[drawn.cells(map(drawn.lobe.wo, drawn.lobe.alpha, u1, u2))];
+    }
+    return same_distribution_p(drawn.counts, counts);
+}
+
+}  // namespace
+
+Mistake mistake_of_sampler(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Scope& scope,
+                           std::uint64_t seed) {
+    if (column(sampler, "n_x") >= 0) return {};
+    std::vector<Drawn> drawn;
+    for (const Point& lobe : plain_lobes(sampler, scope)) {
+        std::optional<Drawn> one = draw(evaluator, sampler, lobe, seed + drawn.size());
+        if (!one) return {};
+        drawn.push_back(std::move(*one));
+    }
+    // A few distinct values of all samples.
+    const auto is_constant = [](const Drawn& d) {
+        return std::count_if(d.counts.begin(), d.counts.end(), [](std::uint32_t n) { return n > 0; }) <= 2;
+    };
+    if (std::all_of(drawn.begin(), drawn.end(), is_constant))
+        return {"the samples do not depend on u", "all samples of a lobe are in one place"};
+
+    const std::vector<Hypothesis> hypotheses = hypotheses_of(sampler);
+    std::vector<double> chances(hypotheses.size());
+    parallel_for(hypotheses.size(), 1, [&](unsigned, std::size_t h, std::size_t) {
+        double least = 1;
+        for (std::size_t i = 0; i < drawn.size() && least > least_p; ++i)
+            least = std::min(least, chance_of(drawn[i], hypotheses[h].map, seed + 1000 + i));
+        chances[h] = least;
+    });
+    if (chances.front() > least_p) return {"", "", true};
+    const auto best = std::max_element(chances.begin(), chances.end());
+    if (!(*best > least_p)) return {};
+    return {hypotheses[static_cast<std::size_t>(best - chances.begin())].what,
+            fmt::format("samples with that mistake agree with these in {} lobes (chi2, p at least {:.2g})", drawn.size(),
+                        *best)};
+}
+
+// --- Densities and terms ---
+
+namespace {
+
+// The value with a mistake in it, at a row of the function's inputs.
+using Value = std::function<double(const Direction& wo, const Direction& w, const Alpha& alpha)>;
+struct Guess {
+    std::string what;
+    Value value;
+};
+
+// Densities of normals, of a view or of the whole surface, for one distribution.
+std::vector<Guess> densities(const Function& density) {
+    const bool ggx = density.ndf == Ndf::ggx, plain = density.support == Support::upper,
+               mirrored = density.result == "VALUE" && column(density, "wi_x") >= 0;
+    const std::string own = ggx ? "vndf_ggx_" : "vndf_beckmann_", others = ggx ? "vndf_beckmann_" : "vndf_ggx_";
+    // About the normal: that of the row, or the half vector of a reflection.
+    const auto about = [=](const Value& normals, bool jacobian) -> Value {
+        if (!mirrored) return normals;
+        return [=](const Direction& o, const Direction& i, const Alpha& a) {
+            const Direction h = normalised(o + i);
+            return normals(o, h, a) / (jacobian ? 4 * dot(o, h) : 1);
+        };
+    };
+    const auto visible = [](const std::string& ndf) -> Value {
+        return [=](const Direction& o, const Direction& m, const Alpha& a) { return value(ndf + "pdf_wm", o, m, a); };
+    };
+    const auto all_normals = [](const std::string& ndf) -> Value {
+        return [=](const Direction&, const Direction& m, const Alpha& a) {
+            return value(ndf + "pdf_wm_walter2007", m, a);
+        };
+    };
+    const Value normals = plain ? all_normals(own) : visible(own);
+    const auto evaluation = reference::find_evaluation<double>(density.model);
+    const Value right = [=](const Direction& o, const Direction& w, const Alpha& a) {
+        const double in[8] = {o[0], o[1], o[2], w[0], w[1], w[2], a[0], a[1]};
+        double out[4];
+        evaluation(in + (plain ? 3 : 0), out, reference::Precision::f32);
+        return out[0];
+    };
+    std::vector<Guess> all{{"", right}};
+    const auto add = [&](const char* what, Value v) { all.push_back({what, std::move(v)}); };
+    const auto alpha = [&](const char* what, auto change) {
+        add(what, [=](const Direction& o, const Direction& w, const Alpha& a) { return right(o, w, change(a)); });
+    };
+    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
+    alpha("alpha is squared once more, as if it were a perceptual roughness",
+          [](const Alpha& a) { return each(a, squared); });
+    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
+    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
+    alpha("alpha.x is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[1], a[1]}; });
+    add(ggx ? "it is the density of Beckmann's distribution, not of GGX"
+            : "it is the density of the distribution of GGX, not of Beckmann's",
+        about(plain ? all_normals(others) : visible(others), true));
+    const auto ndf = [=](const Direction&, const Direction& m, const Alpha& a) { return value(own + "ndf", m, a); };
+    if (plain)
+        add("the cosine of the normal is left out: it is D", about(ndf, true));
+    else {
+        add("visibility (G1) is left out: it is the density D cos of all normals", about(all_normals(own), true));
+        add("it is D, without cosine and visibility", about(ndf, true));
+        add("G1 is left out: it is D |wo.wm| / cos", about([=](const Direction& o, const Direction& m, const Alpha& a) {
+                return ndf(o, m, a) * dot(o, m) / o[2];
+            }, true));
+        add("the division by the cosine of wo is left out", about([=](const Direction& o, const Direction& m, const Alpha& a) {
+                return normals(o, m, a) * o[2];
+            }, true));
+        add("wo.wm is left out", about([=](const Direction& o, const Direction& m, const Alpha& a) {
+                return normals(o, m, a) / dot(o, m);
+            }, true));
+        add("G2 stands in place of G1", about([=](const Direction& o, const Direction& m, const Alpha& a) {
+                return normals(o, m, a) * value(own + "g2", o, reflect(o, m), a) / value(own + "g1", o, a);
+            }, true));
+        add("wo is taken to point to the surface: its sign is wrong", [=](const Direction& o, const Direction& w, const Alpha& a) {
+            return right(-o, w, a);
+        });
+        add("wo is turned by half a turn about the normal: x and y have the wrong sign",
+            [=](const Direction& o, const Direction& w, const Alpha& a) { return right({-o[0], -o[1], o[2]}, w, a); });
+    }
+    if (!mirrored) {
+        add("the Jacobian of the reflection is in it: it is a density of wi, not of wm",
+            [=](const Direction& o, const Direction& m, const Alpha& a) { return normals(o, m, a) / (4 * dot(o, m)); });
+        return all;
+    }
+    add("the Jacobian of the reflection, 1 / (4 wo.wm), is missing: it is a density of wm, not of wi", about(normals, false));
+    add("visibility (G1) and the Jacobian of the reflection are missing: it is the density D cos of all normals",
+        about(all_normals(own), false));
+    add("it is D / 4, without visibility and wo.wm", about([=](const Direction& o, const Direction& m, const Alpha& a) {
+            return ndf(o, m, a) * dot(o, m);
+        }, true));
+    add("the Jacobian has wi.n in place of wo.wm", [=](const Direction& o, const Direction& i, const Alpha& a) {
+        return normals(o, normalised(o + i), a) / (4 * i[2]);
+    });
+    add("the Jacobian has wm.n in place of wo.wm", [=](const Direction& o, const Direction& i, const Alpha& a) {
+        const Direction h = normalised(o + i);
+        return normals(o, h, a) / (4 * h[2]);
+    });
+    add("it is the weight of a sample, not its density", [=](const Direction& o, const Direction& i, const Alpha& a) {
+        return value(own + "weight", o, i, a);
+    });
+    const auto brdf = [=](const Direction& o, const Direction& i, const Alpha& a) {
+        return value(own + "pdf_wi", o, i, a) * value(own + "weight", o, i, a);
+    };
+    add("it is the value of the BRDF times the cosine, not the density", brdf);
+    add("it is the value of the BRDF, not the density",
+        [=](const Direction& o, const Direction& i, const Alpha& a) { return brdf(o, i, a) / i[2]; });
+    if (density.support != Support::mirrored)
+        add("it is the density of all visible normals, not of a cap", about(visible(own), true));
+    else if (ggx)
+        add("it is the density of the bounded cap of 2023", [](const Direction& o, const Direction& i, const Alpha& a) {
+            return value("vndf_ggx_pdf_wi_eto2023", o, i, a);
+        });
+    return all;
+}
+
+// Terms of a direction or two: the same about alpha and the distribution.
+std::vector<Guess> terms(const Function& term, bool takes_wo, bool takes_w) {
+    const auto evaluated = [=](const std::string& name) -> Value {
+        const auto evaluation = reference::find_evaluation<double>(name);
+        return [=](const Direction& o, const Direction& w, const Alpha& a) {
+            std::vector<double> in;
+            if (takes_wo) in.insert(in.end(), o.begin(), o.end());
+            if (takes_w) in.insert(in.end(), w.begin(), w.end());
+            in.insert(in.end(), a.begin(), a.end());
+            double out[4];
+            evaluation(in.data(), out, reference::Precision::f32);
+            return out[0];
+        };
+    };
+    const Value right = evaluated(term.model);
+    std::vector<Guess> all{{"", right}};
+    const auto alpha = [&](const char* what, auto change) {
+        all.push_back({what, [=](const Direction& o, const Direction& w, const Alpha& a) { return right(o, w, change(a)); }});
+    };
+    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
+    alpha("alpha is squared once more, as if it were a perceptual roughness",
+          [](const Alpha& a) { return each(a, squared); });
+    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
+    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
+    const std::string ggx = "vndf_ggx_", beckmann = "vndf_beckmann_";
+    const bool is_ggx = term.model.starts_with(ggx);
+    const std::string other = is_ggx ? beckmann + term.model.substr(ggx.size())
+                                     : ggx + term.model.substr(std::min(beckmann.size(), term.model.size()));
+    if (reference::find_evaluation<double>(other))
+        all.push_back({is_ggx ? "it is Beckmann's, not that of GGX" : "it is that of GGX, not Beckmann's", evaluated(other)});
+    return all;
+}
+
+std::vector<Guess> guesses_of(const Function& function) {
+    const auto takes = [&](const char* name) { return column(function, name) >= 0; };
+    if (takes("n_x") || !takes("alpha_x") || takes("slope_x") || function.outputs.size() != 1) return {};
+    if (function.kind == Kind::density) return densities(function);
+    return terms(function, takes("wo_x") || takes("w_x"), takes("wi_x") || takes("wm_x"));
+}
+
+const char* name_of_factor(double factor) {
+    constexpr double pi = 3.14159265358979323846;
+    struct Known {
+        double factor;
+        const char* name;
+    };
+    static constexpr Known known[] = {{2, "2"},        {4, "4"},         {.5, "1/2"},          {.25, "1/4"},
+                                      {pi, "pi"},      {1 / pi, "1/pi"}, {2 * pi, "2 pi"},     {.5 / pi, "1/(2 pi)"},
+                                      {4 * pi, "4 pi"}, {.25 / pi, "1/(4 pi)"}};
+    for (const Known& k : known)
+        if (std::abs(factor / k.factor - 1) < 2e-3) return k.name;
+    return nullptr;
+}
+
+// Ratios of the values to those of a guess: where half of them lie, and how far apart all but a tenth are.
+struct Ratios {
+    double median = 0, spread = 0;
+};
+Ratios ratios(const std::vector<double>& values, const std::vector<double>& guessed) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double ratio = values[i] / guessed[i];
+        if (!std::isfinite(ratio)) return {0, 1e30};
+        all.push_back(ratio);
+    }
+    std::sort(all.begin(), all.end());
+    const std::size_t n = all.size();
+    const double median = all[n / 2];
+    return {median, median > 0 ? (all[n - 1 - n / 20] - all[n / 20]) / median : 1e30};
+}
+
+}  // namespace
+
+Mistake mistake_of_value(runtime::Evaluator& evaluator, const Function& function, const Scope& scope, std::uint64_t seed) {
+    const std::vector<Guess> guesses = guesses_of(function);
+    if (guesses.empty()) return {};
+    // Where no formula has anything to lose: away from grazing, and rough.
+    Scope easy = scope;
+    easy.domain = Domain::upper;
+    easy.alpha.low = std::clamp(.15, scope.alpha.low, scope.alpha.high);
+    easy.alpha.high = std::clamp(.8, easy.alpha.low, scope.alpha.high);
+    std::vector<Point> points = scoped_points(function, easy, 2048, seed);
+    const bool of_wi = column(function, "wi_x") >= 0, of_wm = column(function, "wm_x") >= 0;
+    std::erase_if(points, [&](const Point& p) {
+        return !(p.cos_theta > .1) || (of_wi && !(p.wi[2] > .05)) || !(dot(p.wo, p.wm) > .05) || !(p.wm[2] > .3);
+    });
+    const Table table = tabulate(function, points, evaluator.input_real());
+    const std::vector<double> values = evaluate(evaluator, function, table).front();
+    struct Fit {
+        const Guess* guess = nullptr;
+        Ratios ratios;
+    };
+    std::optional<Fit> best;
+    for (const Guess& guess : guesses) {
+        std::vector<double> guessed;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Point& p = points[i];
+            guessed.push_back(guess.value(p.wo, of_wi ? p.wi : of_wm ? p.wm : p.wo, p.alpha));
+        }
+        const Ratios r = ratios(values, guessed);
+        if (!(r.spread < 2e-3)) continue;
+        if (!best || (std::abs(best->ratios.median - 1) > 2e-3 && std::abs(r.median - 1) < 2e-3)) best = Fit{&guess, r};
+    }
+    if (!best) return {};
+    const double factor = best->ratios.median;
+    const bool scaled = std::abs(factor - 1) > 2e-3;
+    if (!scaled && best->guess->what.empty()) return {"", "", true};
+    std::string what = best->guess->what;
+    if (scaled) {
+        const char* const name = name_of_factor(factor);
+        what += fmt::format("{}it is {} times what it should be", what.empty() ? "" : ", and ",
+                            name ? std::string(name) : fmt::format("{:.4g}", factor));
+    }
+    return {what, fmt::format("so it is, within {:.1g}, at 90 % of {} inputs", std::max(best->ratios.spread, 1e-6), points.size())};
+}
+
+}  // namespace vndf::conformance

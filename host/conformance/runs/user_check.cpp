@@ -1,0 +1,57 @@
+#include "conformance/runs/user_check.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "conformance/judge/mistakes.h"
+#include "conformance/judge/own_density.h"
+
+namespace vndf::conformance {
+namespace {
+
+bool fails(const FunctionReport& judged) {
+    return judged.verdict() == Verdict::fail;
+}
+
+std::string not_judged(const Function& function, const Scope& scope) {
+    std::vector<std::string> parts;
+    const bool has_wo = std::any_of(function.inputs.begin(), function.inputs.end(),
+                                    [](const std::string& name) { return name == "wo_x" || name == "w_x"; });
+    if (has_wo && scope.domain == Domain::upper) parts.push_back("views from behind the surface (--domain sphere)");
+    parts.push_back(fmt::format("alpha outside of {}:{} (--alpha)", scope.alpha.low, scope.alpha.high));
+    if (scope.isotropic) parts.push_back("two different alphas (--isotropic)");
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string in_words(const Mistake& mistake) {
+    if (mistake) return fmt::format("likeliest mistake: {} ({})", mistake.what, mistake.evidence);
+    if (mistake.none)
+        return "right for moderate roughness and views from the front; what fails is a special case, or rounding, at the "
+               "inputs above";
+    return "no known mistake explains it";
+}
+
+}  // namespace
+
+Report check_user_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, CheckOptions options) {
+    const Scope& scope = kernel.options().scope;
+    options.scope = &scope;
+    std::vector<const Function*> selected;
+    for (const Function& function : kernel.functions()) selected.push_back(&function);
+    Report report = check(evaluator, runtime::Math::strict, selected, options);
+    if (const Function* density = kernel.pdf())
+        report.functions.front().findings.push_back(check_own_density(evaluator, kernel.function(), *density, scope,
+                                                                      options.seed, report.family_rate));
+    for (FunctionReport& judged : report.functions) {
+        judged.not_judged = not_judged(*judged.function, scope);
+        if (!fails(judged)) continue;
+        options.progress("looking for the mistake in " + judged.function->name, 1);
+        judged.diagnosis = in_words(judged.function->kind == Kind::sampler
+                                        ? mistake_of_sampler(evaluator, *judged.function, scope, options.seed)
+                                        : mistake_of_value(evaluator, *judged.function, scope, options.seed));
+    }
+    return report;
+}
+
+}  // namespace vndf::conformance
