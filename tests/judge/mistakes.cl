@@ -114,7 +114,7 @@ float3 ggx_disks(float3 wo, float2 alpha, float2 u) {
 #endif
     const float p1 = r * cos(phi);
 #ifdef PRECEDENCE
-    const float p2 = r * sin(phi) * (u.y < a) ? 1.0f : v.z;
+    const float p2 = r * sin(phi) * (u.y < a) != 0.0f ? 1.0f : v.z;
 #else
     const float p2 = r * sin(phi) * (phi < M_PI_F ? 1.0f : v.z);
 #endif

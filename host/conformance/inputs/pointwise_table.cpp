@@ -5,15 +5,15 @@
 namespace vndf::conformance {
 namespace {
 
-// Whether something comes from here: a density that is 0, or of a reflection below the horizon, which renderers drop, is nobody's
+// Whether something comes from here: a value that is 0, or of a reflection below the horizon, which renderers drop, is nobody's
 // concern.
 bool is_met(const Function& function, const Point& point, Real real) {
-    if (function.kind != Kind::density) return true;
+    if (function.kind != Kind::density && function.kind != Kind::term) return true;
     if (function.support == Support::mirrored && !(point.wi[2] > 0)) return false;
     const std::vector<double> row = tabulate(function, {point}, real).row(0);
     double exact = 0;
     reference::find_evaluation<double>(function.model)(row.data(), &exact, precision(real));
-    return exact > 0;
+    return exact != 0;
 }
 
 Table scoped_table(const Function& function, Real real, const PointwiseOptions& options) {

@@ -68,26 +68,14 @@ Direction stretched(const Direction& w, const Alpha& a) {
     return normalised({a[0] * w[0], a[1] * w[1], w[2]});
 }
 
-// The listings of 2017 and 2018 with T2 the wrong way round, V x T1 in place of T1 x V.
-enum class Listing { heitz2017, heitz2018 };
-Direction flipped(Listing listing, bool clamped, const Direction& o, const Alpha& a, double u1, double u2) {
-    constexpr double pi = 3.14159265358979323846;
-    const Direction v = stretched(o, a);
-    const Direction t1 = std::hypot(v[0], v[1]) > 0 ? normalised({-v[1], v[0], 0}) : Direction{1, 0, 0};
-    // 2017 has T1 = V x Z, the other way.
-    const Direction first = listing == Listing::heitz2017 ? -t1 : t1, t2 = cross(first, v);
-    double p1 = 0, p2 = 0;
-    if (listing == Listing::heitz2018) {
-        const double r = std::sqrt(u1), phi = 2 * pi * u2, s = (1 + v[2]) / 2;
-        p1 = r * std::cos(phi), p2 = (1 - s) * std::sqrt(1 - p1 * p1) + s * r * std::sin(phi);
-    } else {
-        const double share = 1 / (1 + v[2]), r = std::sqrt(u1);
-        const double phi = u2 < share ? u2 / share * pi : pi + (u2 - share) / (1 - share) * pi;
-        p1 = r * std::cos(phi), p2 = r * std::sin(phi) * (u2 < share ? 1 : v[2]);
-    }
-    Direction n = p1 * first + -p2 * t2 + std::sqrt(std::max(0.0, 1 - p1 * p1 - p2 * p2)) * v;
+// A visible normal mirrored in stretched space in the plane of wo and the first tangent: what the disks of 2017 and 2018 give
+// with the second tangent the wrong way round, of normals below the surface as those listings have it or as they are.
+Direction mirrored(const Direction& m, bool clamped, const Direction& o, const Alpha& a) {
+    const Direction v = stretched(o, a), h = normalised({m[0] / a[0], m[1] / a[1], m[2]});
+    const Direction t1 = std::hypot(v[0], v[1]) > 0 ? normalised({-v[1], v[0], 0}) : Direction{1, 0, 0}, t2 = cross(v, t1);
+    Direction n = h + -2 * dot(h, t2) * t2;
     if (clamped) n[2] = std::max(0.0, n[2]);
-    return normalised({a[0] * n[0], a[1] * n[1], n[2]});
+    return stretched(n, a);
 }
 
 // The listing of 2017 as printed, where ?: takes all before it for its condition.
@@ -171,19 +159,21 @@ std::vector<Hypothesis> of_normals(Ndf ndf, bool plain) {
     if (ggx) {
         u(half_azimuth, "vndf_ggx_sample_wm_dupuy2023", first_half);
         u(half_azimuth, "vndf_ggx_sample_wm_heitz2018", first_half);
-        u(half_disk, "vndf_ggx_sample_wm_heitz2017", second_half);
+        add(half_disk, [map = map_of("vndf_ggx_sample_wm_heitz2017")](const Direction& o, const Alpha& a, double u1,
+                                                                       double u2) {
+            return map(o, a, u1, u2 / (1 + stretched(o, a)[2]));
+        });
         u("the radius in the disk lacks its square root", "vndf_ggx_sample_wm_heitz2018",
           [](double&, double& u2) { u2 *= u2; });
         u("the radius in the disk lacks its square root", "vndf_ggx_sample_wm_heitz2017",
           [](double& u1, double&) { u1 *= u1; });
         u(half_slope, "vndf_ggx_sample_wm_heitz_deon2014_exact", upper);
         u(half_slope, "vndf_ggx_sample_wm_heitz_deon2014_exact", second_half);
-        for (const Listing listing : {Listing::heitz2018, Listing::heitz2017})
-            for (const bool clamped : {true, false})
-                add("T2 points the wrong way: V x T1 in place of T1 x V",
-                    [=](const Direction& o, const Alpha& a, double u1, double u2) {
-                        return flipped(listing, clamped, o, a, u1, u2);
-                    });
+        for (const bool clamped : {true, false})
+            add("T2 points the wrong way: V x T1 in place of T1 x V, or the reverse",
+                [=](const Direction& o, const Alpha& a, double u1, double u2) {
+                    return mirrored(right(o, a, u1, u2), clamped, o, a);
+                });
         add("?: takes the whole product before it for its condition, as in the listing of 2017", printed2017);
     } else {
         u(half_slope, "vndf_beckmann_sample_wm_jakob2014", upper);
@@ -544,10 +534,13 @@ struct Ratios {
 Ratios ratios(const std::vector<double>& values, const std::vector<double>& guessed) {
     std::vector<double> all;
     for (std::size_t i = 0; i < values.size(); ++i) {
+        constexpr double nothing = 1e-30;
+        if (std::abs(values[i]) < nothing && guessed[i] < nothing) continue;
         const double ratio = values[i] / guessed[i];
         if (!std::isfinite(ratio)) return {0, 1e30};
         all.push_back(ratio);
     }
+    if (all.size() < values.size() / 4) return {0, 1e30};
     std::sort(all.begin(), all.end());
     const std::size_t n = all.size();
     const double median = all[n / 2];
@@ -571,6 +564,10 @@ Mistake mistake_of_value(runtime::Evaluator& evaluator, const Function& function
     });
     const Table table = tabulate(function, points, evaluator.input_real());
     const std::vector<double> values = evaluate(evaluator, function, table).front();
+    const auto zeros = static_cast<std::size_t>(std::count(values.begin(), values.end(), 0));
+    if (zeros > values.size() - values.size() / 10)
+        return {"it is 0 where it is not, as if wo pointed to the surface, or another side were up",
+                fmt::format("{} of {} values", zeros, values.size())};
     struct Fit {
         const Guess* guess = nullptr;
         Ratios ratios;

@@ -1,0 +1,24 @@
+// A user's BSDF, its value times the cosine, its density and its samples, judged by what holds of every BSDF.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "conformance/inputs/grids.h"
+#include "conformance/judge/finding.h"
+#include "runtime/device_evaluator.h"
+
+namespace vndf::conformance {
+
+struct BsdfFindings {
+    std::vector<Finding> value, density, sample;
+    std::string diagnosis;  // of what fails, or empty
+};
+
+// wo is in front. family_rate: of false alarms over all tests.
+BsdfFindings check_bsdf(runtime::DeviceEvaluator& evaluator, const Function& value, const Function& density,
+                        const Function& sample, const Scope& scope, std::size_t rows, std::uint64_t seed,
+                        double family_rate);
+
+}  // namespace vndf::conformance
