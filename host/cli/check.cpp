@@ -158,16 +158,20 @@ void run_check(const Check& options, Common& common) {
 // What is judged in place of our functions.
 void add_user(CLI::App& command, const std::shared_ptr<Check>& options) {
     conformance::UserOptions& user = options->user;
-    CLI::Option* kernel = command.add_option(
-        "--kernel", user.file, "judge a function of this file of OpenCL C instead: kernels/README.md, Adapters");
+    CLI::Option* kernel =
+        command.add_option("--kernel", user.file,
+                           "judge a function of this file of OpenCL C instead: kernels/README.md, Adapters");
     CLI::Option* function =
-        command.add_option("--function", user.function, "its name there; of a bsdf that of its value")->needs(kernel);
+        command.add_option("--function", user.function, "its name there; of a bsdf that of its value")
+            ->needs(kernel);
     CLI::Option* as =
         command
-            .add_option("--as", user.as,
-                        fmt::format("what it is to be: {}, bsdf,\nor a function of clvndf list, whose map or value is "
-                                    "compared as well",
-                                    fmt::join(conformance::general_names(), ", ")))
+            .add_option(
+                "--as", user.as,
+                fmt::format(
+                    "what it is to be: {}, bsdf,\nor a function of clvndf list, whose map or value is "
+                    "compared as well",
+                    fmt::join(conformance::general_names(), ", ")))
             ->needs(kernel);
     kernel->needs(function)->needs(as)->type_name("FILE");
     for (const char* other : {"--only", "--math", "--exhaustive", "--digest"})
@@ -185,7 +189,8 @@ void add_user(CLI::App& command, const std::shared_ptr<Check>& options) {
             "where wo lies: above the surface (default), or anywhere")
         ->check(CLI::IsMember({"front", "sphere"}))
         ->needs(kernel);
-    add_alpha(command, user.scope.alpha, "range of roughness that is judged (default 0.001:1)")->needs(kernel);
+    add_alpha(command, user.scope.alpha, "range of roughness that is judged (default 0.001:1)")
+        ->needs(kernel);
     command.add_flag("--isotropic", user.scope.isotropic, "judge it where both alphas are the same alone")
         ->needs(kernel);
 }

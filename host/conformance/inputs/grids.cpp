@@ -423,8 +423,8 @@ std::vector<Point> corners(const Scope& scope, bool world) {
     std::vector<std::array<double, 2>> alphas{{range.low, range.low}, {range.high, range.high}};
     if (!world && !scope.isotropic)
         alphas.insert(alphas.end(), {{range.low, range.high}, {range.high, range.low}});
-    std::vector<Direction> directions{{0, 0, 1}, {1e-7, 0, 1}, {0.6, 0, 0.8}, {0, 0.6, 0.8}, {-0.6, 0, 0.8},
-                                      direction(1e-3, 0.7), direction(1e-3, 0)};
+    std::vector<Direction> directions{{0, 0, 1},      {1e-7, 0, 1},         {0.6, 0, 0.8},     {0, 0.6, 0.8},
+                                      {-0.6, 0, 0.8}, direction(1e-3, 0.7), direction(1e-3, 0)};
     if (scope.domain == Domain::sphere)
         directions.insert(directions.end(), {{0.6, 0, -0.8}, direction(-1e-3, 0.7), direction(0, 0.7)});
     std::vector<Point> points;
@@ -432,7 +432,8 @@ std::vector<Point> corners(const Scope& scope, bool world) {
         for (const Direction& wo : directions)
             for (const double u1 : {0.0, 0x1p-24, 0.25, 0.5, 0.75, 1 - 0x1p-24})
                 for (const double u2 : {0.0, 0x1p-24, 0.25, 0.5, 1 - 0x1p-24})
-                    points.push_back(make_point(wo, alpha, {std::sqrt(1 - u1), 6 * u2}, {0, 0, 1}, {u1, u2}, 1.5));
+                    points.push_back(
+                        make_point(wo, alpha, {std::sqrt(1 - u1), 6 * u2}, {0, 0, 1}, {u1, u2}, 1.5));
     return points;
 }
 
@@ -451,7 +452,8 @@ std::vector<Point> lobes(const Function& function, const Scope& scope, bool quic
     return distinct(function, points);
 }
 
-std::vector<Point> scoped_points(const Function& function, const Scope& scope, std::size_t count, std::uint64_t seed) {
+std::vector<Point> scoped_points(const Function& function, const Scope& scope, std::size_t count,
+                                 std::uint64_t seed) {
     Random random(seed);
     const bool world = uses(function, {"n_x"});
     std::vector<Point> points;

@@ -39,6 +39,7 @@ std::vector<Point> renderer_points(const Function& function, std::size_t count, 
 
 // `count` random points in a scope: wo from grazing (a thousandth) to the normal, microfacet normals and u as samplers meet them;
 // and behind them the corners: views along the axes, the ends of the range of alpha, u at 0 and next to 1.
-std::vector<Point> scoped_points(const Function& function, const Scope& scope, std::size_t count, std::uint64_t seed);
+std::vector<Point> scoped_points(const Function& function, const Scope& scope, std::size_t count,
+                                 std::uint64_t seed);
 
 }  // namespace vndf::conformance

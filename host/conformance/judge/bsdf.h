@@ -18,7 +18,7 @@ struct BsdfFindings {
 
 // wo is in front. family_rate: of false alarms over all tests.
 BsdfFindings check_bsdf(runtime::DeviceEvaluator& evaluator, const Function& value, const Function& density,
-                        const Function& sample, const Scope& scope, std::size_t rows, std::uint64_t seed,
-                        double family_rate);
+                        const Function& sample, const Scope& scope, bool quick, std::size_t rows,
+                        std::uint64_t seed, double family_rate);
 
 }  // namespace vndf::conformance

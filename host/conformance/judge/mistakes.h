@@ -12,7 +12,8 @@ namespace vndf::conformance {
 struct Mistake {
     std::string what;      // "alpha.x and alpha.y are exchanged"; empty if none fits
     std::string evidence;  // how well it fits
-    bool none = false;     // nothing is wrong where it was looked for: with moderate roughness, away from grazing views
+    bool none =
+        false;  // nothing is wrong where it was looked for: with moderate roughness, away from grazing views
     explicit operator bool() const { return !what.empty(); }
 };
 
@@ -21,6 +22,7 @@ Mistake mistake_of_sampler(runtime::DeviceEvaluator& evaluator, const Function& 
                            std::uint64_t seed);
 
 // What a user's density or term is, if not itself.
-Mistake mistake_of_value(runtime::Evaluator& evaluator, const Function& function, const Scope& scope, std::uint64_t seed);
+Mistake mistake_of_value(runtime::Evaluator& evaluator, const Function& function, const Scope& scope,
+                         std::uint64_t seed);
 
 }  // namespace vndf::conformance

@@ -35,7 +35,8 @@ void add_cosines(const Function& density, const std::vector<double>& row,
 
 // Without what is below the horizon, where a user's density of reflections may be 0.
 void drop_below(const Function& density, const reference::QuadratureRule& rule, Nodes& result) {
-    if (density.support != Support::mirrored || column(density, "n_x") >= 0 || column(density, "wi_z") < 0) return;
+    if (density.support != Support::mirrored || column(density, "n_x") >= 0 || column(density, "wi_z") < 0)
+        return;
     for (std::size_t i = 0; i < rule.size(); ++i) {
         if (rule.z[i] > 0) continue;
         result.weight[i] = 0;
@@ -113,7 +114,8 @@ std::vector<Finding> check_normalisation(runtime::Evaluator& evaluator, const Fu
         if (std::isnan(error)) error = std::numeric_limits<double>::infinity();
         if (error <= finding.figure) continue;
         finding.figure = error;
-        finding.detail = fmt::format("{:.9g} instead of {:.9g}, tolerance {:.2g}", sum, at.expected, tolerance + share);
+        finding.detail =
+            fmt::format("{:.9g} instead of {:.9g}, tolerance {:.2g}", sum, at.expected, tolerance + share);
         finding.worst = hex_row(density, row);
     }
     return {finding};

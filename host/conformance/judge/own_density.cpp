@@ -36,8 +36,8 @@ Quadrature quadrature(const Function& density, const Point& lobe, Real real) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < fine; ++i)
         for (std::size_t j = 0; j < fine; ++j) {
-            const double cosine = (static_cast<double>(i) + .5) * step, phi = (static_cast<double>(j) + .5) * turn,
-                         sine = std::sqrt(1 - cosine * cosine);
+            const double cosine = (static_cast<double>(i) + .5) * step,
+                         phi = (static_cast<double>(j) + .5) * turn, sine = std::sqrt(1 - cosine * cosine);
             Direction m{lobe.alpha[0] * sine * std::cos(phi), lobe.alpha[1] * sine * std::sin(phi), cosine};
             const double size = length(m);
             for (double& x : m) x /= size;
@@ -59,7 +59,8 @@ Quadrature quadrature(const Function& density, const Point& lobe, Real real) {
 }
 
 // The last cell is for what is in none: below, or a reflection below the horizon, where a density may be 0.
-std::vector<std::uint32_t> histogram(const std::vector<std::vector<double>>& d, const Point& lobe, bool reflected) {
+std::vector<std::uint32_t> histogram(const std::vector<std::vector<double>>& d, const Point& lobe,
+                                     bool reflected) {
     std::vector<std::uint32_t> counts(cells * cells + 1);
     for (std::size_t i = 0; i < samples; ++i) {
         Direction m{d[0][i], d[1][i], d[2][i]};
@@ -80,8 +81,9 @@ std::vector<std::uint32_t> histogram(const std::vector<std::vector<double>>& d, 
 
 }  // namespace
 
-Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Function& density,
-                          const Scope& scope, std::uint64_t seed, double family_rate) {
+Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& sampler,
+                          const Function& density, const Scope& scope, std::uint64_t seed,
+                          double family_rate) {
     const Real real = evaluator.input_real();
     const std::vector<Point> all = lobes(sampler, scope, true);
     Finding finding;
@@ -90,7 +92,8 @@ Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& s
     finding.limit = sidak(family_rate, all.size());
     for (const Point& lobe : all) {
         const std::vector<double> row = tabulate(sampler, {lobe}, real).row(0);
-        const reference::Distribution distribution(sampler.density, RowReader(sampler).lobe(row.data()), precision(real));
+        const reference::Distribution distribution(sampler.density, RowReader(sampler).lobe(row.data()),
+                                                   precision(real));
         if (!(distribution.pivot_rounding() < 1e-3)) continue;
         SplitMix64 random(seed + finding.count);
         std::vector<Point> points(samples, lobe);

@@ -11,7 +11,8 @@ namespace vndf::conformance {
 
 // The histogram of samples in lobes of the scope against the density's integrals over its cells, by quadrature of the evaluator's
 // values; its worst lobe, at a rate of false alarms of `family_rate` for all lobes.
-Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& sampler, const Function& density,
-                          const Scope& scope, std::uint64_t seed, double family_rate);
+Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& sampler,
+                          const Function& density, const Scope& scope, std::uint64_t seed,
+                          double family_rate);
 
 }  // namespace vndf::conformance

@@ -55,13 +55,14 @@ std::vector<Finding> check_directions(const Function& sampler, const Table& tabl
 }
 
 // The map against the exact one. Another map of the same distribution is as good: it is the distribution that is wrong or not.
-void compare_maps(const Function& sampler, const Table& table, const std::vector<std::vector<double>>& results,
-                  const PointwiseOptions& options, Real real, std::vector<Finding>& findings) {
+void compare_maps(const Function& sampler, const Table& table,
+                  const std::vector<std::vector<double>>& results, const PointwiseOptions& options, Real real,
+                  std::vector<Finding>& findings) {
     const SamplerErrors errors = sampler_errors(exact_map(sampler, table, real), results, real);
     const SamplerBounds& bounds = bounds_of(sampler, real).sampler;
     const double factor = slack(options.math);
-    Finding finding = make_finding("map, p99", errors.over_condition.percentile(99), bounds.front * factor, "eps (1 + cond)",
-                                   errors.over_condition, sampler, table);
+    Finding finding = make_finding("map, p99", errors.over_condition.percentile(99), bounds.front * factor,
+                                   "eps (1 + cond)", errors.over_condition, sampler, table);
     finding.concern = Concern::inexact;
     if (errors.angle.percentile(50) * epsilon(real) > 1e-2)
         finding.detail += fmt::format("; another map than that of {}", sampler.model);
@@ -73,9 +74,11 @@ std::vector<Finding> check_values_of_user(runtime::Evaluator& evaluator, const F
     const double unit = epsilon(evaluator.input_real());
     std::vector<Finding> findings = check_values(evaluator, function, options);
     Finding precise = findings.front();
-    precise.check = "rounding, " + precise.check.substr(precise.check.find(',') + 2), precise.concern = Concern::inexact;
+    precise.check = "rounding, " + precise.check.substr(precise.check.find(',') + 2),
+    precise.concern = Concern::inexact;
     Finding typical = findings.front();
-    typical.check = "typical error", typical.figure = precise.p50 * unit, typical.limit = typical_error, typical.unit = "relative";
+    typical.check = "typical error", typical.figure = precise.p50 * unit, typical.limit = typical_error,
+    typical.unit = "relative";
     Finding rare = typical;
     rare.check = "error, p99", rare.figure = precise.p99 * unit, rare.limit = rare_error;
     findings.front() = typical;
@@ -86,7 +89,8 @@ std::vector<Finding> check_values_of_user(runtime::Evaluator& evaluator, const F
 
 }  // namespace
 
-std::vector<Finding> check_user(runtime::Evaluator& evaluator, const Function& function, const PointwiseOptions& options) {
+std::vector<Finding> check_user(runtime::Evaluator& evaluator, const Function& function,
+                                const PointwiseOptions& options) {
     if (function.kind != Kind::sampler) return check_values_of_user(evaluator, function, options);
     const Real real = evaluator.input_real();
     const Table table = pointwise_table(function, real, options);

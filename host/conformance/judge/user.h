@@ -14,6 +14,7 @@ inline constexpr double beyond_rounding = 1e-3;
 
 // The findings of a function of any kind in options.scope: of a sampler its invariants, and its map if it has a model; of others
 // the errors against the reference.
-std::vector<Finding> check_user(runtime::Evaluator& evaluator, const Function& function, const PointwiseOptions& options);
+std::vector<Finding> check_user(runtime::Evaluator& evaluator, const Function& function,
+                                const PointwiseOptions& options);
 
 }  // namespace vndf::conformance

@@ -146,8 +146,7 @@ class Run {
   private:
     // In lobes.
     double work(const Function& function) const {
-        return 2 +
-               (is_plain_sampler(function) ? static_cast<double>(lobes(function, pointwise_).size()) : 0);
+        return 2 + (is_plain_sampler(function) ? static_cast<double>(lobes(function, pointwise_).size()) : 0);
     }
 
     void compare_bits(const std::vector<const Function*>& selected) {
@@ -188,7 +187,8 @@ class Run {
             judging.pop_front();
         };
         // Numbered by function and lobe, so that --only repeats a run's samples.
-        std::uint64_t stream = options_.scope ? 0 : static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
+        std::uint64_t stream =
+            options_.scope ? 0 : static_cast<std::uint64_t>(&sampler - functions().data()) << 16;
         double done = 0;
         for (const Point& lobe : lobes(sampler, pointwise_)) {
             options_.progress(sampler.name, (work_done_ + ++done) / work_total_);

@@ -20,7 +20,8 @@ std::string not_judged(const Function& function, const Scope& scope) {
     std::vector<std::string> parts;
     const bool has_wo = std::any_of(function.inputs.begin(), function.inputs.end(),
                                     [](const std::string& name) { return name == "wo_x" || name == "w_x"; });
-    if (has_wo && scope.domain == Domain::upper) parts.push_back("views from behind the surface (--domain sphere)");
+    if (has_wo && scope.domain == Domain::upper)
+        parts.push_back("views from behind the surface (--domain sphere)");
     parts.push_back(fmt::format("alpha outside of {}:{} (--alpha)", scope.alpha.low, scope.alpha.high));
     if (scope.isotropic) parts.push_back("two different alphas (--isotropic)");
     return fmt::format("{}", fmt::join(parts, "; "));
@@ -29,23 +30,28 @@ std::string not_judged(const Function& function, const Scope& scope) {
 std::string in_words(const Mistake& mistake) {
     if (mistake) return fmt::format("likeliest mistake: {} ({})", mistake.what, mistake.evidence);
     if (mistake.none)
-        return "no known mistake: moderate roughness seen from the front looks right, to some ten thousand samples or a "
+        return "no known mistake: moderate roughness seen from the front looks right, to some ten thousand "
+               "samples or a "
                "thousandth; what fails is a small bias, a special case or rounding, at the inputs above";
     return "no known mistake explains it";
 }
 
-Report check_bsdf_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, const CheckOptions& options,
-                         Report report) {
+Report check_bsdf_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator,
+                         const CheckOptions& options, Report report) {
     const Function &value = kernel.function(), &density = *kernel.pdf(), &sample = *kernel.sample();
     options.progress(value.name, 0);
-    const std::size_t rows = options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
-    BsdfFindings found = check_bsdf(evaluator, value, density, sample, kernel.options().scope, rows, options.seed,
-                                    report.family_rate);
-    report.functions = {{&value, std::move(found.value)}, {&density, std::move(found.density)}, {&sample, std::move(found.sample)}};
+    const std::size_t rows =
+        options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
+    BsdfFindings found = check_bsdf(evaluator, value, density, sample, kernel.options().scope, options.quick,
+                                    rows, options.seed, report.family_rate);
+    report.functions = {{&value, std::move(found.value)},
+                        {&density, std::move(found.density)},
+                        {&sample, std::move(found.sample)}};
     report.functions.front().not_judged = not_judged(value, kernel.options().scope);
     if (!report.passed())
-        report.functions.front().diagnosis =
-            found.diagnosis.empty() ? "no known mistake explains it" : "likeliest mistake: " + found.diagnosis;
+        report.functions.front().diagnosis = found.diagnosis.empty()
+                                                 ? "no known mistake explains it"
+                                                 : "likeliest mistake: " + found.diagnosis;
     options.progress("", 1);
     return report;
 }
@@ -55,11 +61,13 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
     options.scope = &scope;
     std::vector<const Function*> selected;
     for (const Function& function : kernel.functions()) selected.push_back(&function);
-    if (kernel.is_bsdf()) return check_bsdf_kernel(kernel, evaluator, options, check(evaluator, runtime::Math::strict, {}, options));
+    if (kernel.is_bsdf())
+        return check_bsdf_kernel(kernel, evaluator, options,
+                                 check(evaluator, runtime::Math::strict, {}, options));
     Report report = check(evaluator, runtime::Math::strict, selected, options);
     if (const Function* density = kernel.pdf())
-        report.functions.front().findings.push_back(check_own_density(evaluator, kernel.function(), *density, scope,
-                                                                      options.seed, report.family_rate));
+        report.functions.front().findings.push_back(check_own_density(
+            evaluator, kernel.function(), *density, scope, options.seed, report.family_rate));
     for (FunctionReport& judged : report.functions) {
         judged.not_judged = not_judged(*judged.function, scope);
         if (!fails(judged)) continue;
@@ -73,7 +81,8 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
 
 }  // namespace
 
-Report check_user_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, CheckOptions options) {
+Report check_user_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator,
+                         CheckOptions options) {
     const auto start = std::chrono::steady_clock::now();
     Report report = judged(kernel, evaluator, options);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
