@@ -75,6 +75,10 @@ TEST_CASE("every command runs to its end with every option") {
         "check --only vndf_reflect --quick --device \"$device\" --math strict --real float --points 1024 "
         "--json check.json --junit check.xml",
         "check --only vndf_reflect --quick --digest --on host",
+        "check --kernel \"$judge/right.cl\" --function my_sample --as ggx_sample_wm --pdf my_pdf --quick --points "
+        "1024 --domain front --alpha 0.2:0.5 --isotropic --options -DX",
+        "check --kernel \"$judge/bsdf.cl\" --function my_value --as bsdf --pdf my_pdf --sample my_sample --quick "
+        "--points 1024",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
         "emit --help",
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
@@ -119,6 +123,7 @@ TEST_CASE("every command runs to its end with every option") {
         const int status = shell(folder, "device='" + runtime::choose_device().device.name +
                                              "'\ncommitted='" CLVNDF_SOURCE_DIR
                                              "/bench/results/pocl-3.1.json'\n"
+                                             "judge='" CLVNDF_SOURCE_DIR "/tests/judge'\n"
                                              "PATH=/usr/bin:$PATH \"$clvndf\" " +
                                              line + " >out 2>err");
         CAPTURE(folder.read("err"));

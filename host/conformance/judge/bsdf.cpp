@@ -19,7 +19,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t samples = std::size_t{1} << 17;
 constexpr double smallest_alpha = 0.1;  // of lobes that the grid resolves
-constexpr double furnace_limit = 1.002, typical = 1e-3, rare = 1e-2;
+constexpr double furnace_limit = 1.002, typical = 1e-3, rare = 0.1;
 
 using Columns = std::vector<std::vector<double>>;
 
@@ -251,15 +251,22 @@ class Check {
     }
 
     std::string why(const Finding& furnace, const Finding& whole, const Finding& chi2) const {
+        const auto fails = [](const std::vector<Finding>& all, const std::string& check) {
+            return std::any_of(all.begin(), all.end(), [&](const Finding& f) {
+                return f.concern == Concern::wrong && !f.passed() && f.check.starts_with(check);
+            });
+        };
+        if (fails(findings.sample, "unit length"))
+            return "samples are no unit vectors: not normalised, or reflected about a normal that faces away "
+                   "as if it faced wo";
         if (!furnace.passed())
             return "more light is reflected than there is: masking and shadowing (G2) are left out, or a "
                    "factor is too large";
-        const bool reciprocal =
-            std::all_of(findings.value.begin(), findings.value.end(),
-                        [](const Finding& f) { return f.passed() || !f.check.starts_with("reciprocity"); });
-        if (!reciprocal)
+        if (!whole.passed())
+            return fmt::format("{} is no density: it integrates to {:.4g}", density_.name, whole.figure);
+        if (fails(findings.value, "reciprocity"))
             return "masking or shadowing of one of the two directions is left out (G1 in place of G2)";
-        if (!chi2.passed() && whole.passed())
+        if (!chi2.passed())
             return fmt::format("the samples do not follow {}, which is the density of others", density_.name);
         return {};
     }

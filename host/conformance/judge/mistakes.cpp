@@ -466,6 +466,17 @@ std::vector<Guess> densities(const Function& density) {
                 return right({-o[0], -o[1], o[2]}, w, a);
             });
     }
+    if (!plain && !ggx)
+        add("masking is the rational fit of Walter et al. 2007, off by up to half a hundredth",
+            about(
+                [=](const Direction& o, const Direction& m, const Alpha& a) {
+                    const double cot = o[2] / std::hypot(a[0] * o[0], a[1] * o[1]);
+                    const double fit =
+                        cot < 1.6 ? (3.535 * cot + 2.181 * cot * cot) / (1 + 2.276 * cot + 2.577 * cot * cot)
+                                  : 1;
+                    return normals(o, m, a) * fit / value(own + "g1", o, a);
+                },
+                true));
     if (!mirrored) {
         add("the Jacobian of the reflection is in it: it is a density of wi, not of wm",
             [=](const Direction& o, const Direction& m, const Alpha& a) {

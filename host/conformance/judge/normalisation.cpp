@@ -94,7 +94,7 @@ std::vector<Finding> check_normalisation(runtime::Evaluator& evaluator, const Fu
                                          const PointwiseOptions& options) {
     const Real real = evaluator.input_real();
     // Of a user's density the pointwise comparison says how precise it is.
-    const double tolerance = options.scope ? 1e-3 : 2e-6;
+    const double tolerance = options.scope ? 1e-2 : 2e-6;
     Finding finding;
     finding.check = "integral";
     finding.limit = 1;

@@ -13,7 +13,7 @@ namespace vndf::conformance {
 namespace {
 
 // Of a density: the median and the 99th percentile of the relative error that are no longer rounding.
-constexpr double typical_error = 1e-3, rare_error = 1e-2;
+constexpr double typical_error = 1e-3, rare_error = 0.1;
 
 Finding graded(Finding finding, double figure) {
     finding.concern = figure > beyond_rounding ? Concern::wrong : Concern::inexact;

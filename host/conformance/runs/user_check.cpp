@@ -65,8 +65,9 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
         return check_bsdf_kernel(kernel, evaluator, options,
                                  check(evaluator, runtime::Math::strict, {}, options));
     Report report = check(evaluator, runtime::Math::strict, selected, options);
+    // Of the samples the reference is the judge: it is their density that does not fit them.
     if (const Function* density = kernel.pdf())
-        report.functions.front().findings.push_back(check_own_density(
+        report.functions.back().findings.push_back(check_own_density(
             evaluator, kernel.function(), *density, scope, options.seed, report.family_rate));
     for (FunctionReport& judged : report.functions) {
         judged.not_judged = not_judged(*judged.function, scope);
