@@ -233,14 +233,19 @@ TEST_CASE("every mistake in a BSDF is named", "[.judge-full]") {
 
 TEST_CASE("what is wrong, inexact and outside of the domain are told apart") {
     // D from the height alone loses its digits at small alpha: inexact where few are lost, wrong where all are.
-    const auto verdict = [](const Scope& scope) {
+    const auto found = [](const Scope& scope) {
         const UserKernel kernel(asked("inexact.cl", "my_pdf", "ggx_pdf_wm", {}, scope));
-        return judged(kernel).functions.front().verdict();
+        const FunctionReport report = judged(kernel).functions.front();
+        return std::pair(report.verdict(), report.diagnosis);
     };
-    CHECK(verdict({Domain::upper, {.1, 1}, true}) == Verdict::inexact);
-    CHECK(verdict({Domain::upper, {1e-4, 1e-3}, true}) == Verdict::fail);
-    // Behind the surface it is no density.
-    CHECK(verdict({Domain::sphere, {.1, 1}, true}) == Verdict::fail);
+    CHECK(found({Domain::upper, {.1, 1}, true}).first == Verdict::inexact);
+    const auto [verdict, diagnosis] = found({Domain::upper, {1e-4, 1e-3}, true});
+    CHECK(verdict == Verdict::fail);
+    if (runtime::choose_device().device.fp64) CHECK_THAT(diagnosis, ContainsSubstring("none but rounding"));
+    // Behind the surface it is no density, in double neither.
+    const auto [behind, why] = found({Domain::sphere, {.1, 1}, true});
+    CHECK(behind == Verdict::fail);
+    CHECK_THAT(why, ContainsSubstring("a special case"));
 }
 
 TEST_CASE(

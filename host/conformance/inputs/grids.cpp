@@ -427,13 +427,16 @@ std::vector<Point> corners(const Scope& scope, bool world) {
                                       {-0.6, 0, 0.8}, direction(1e-3, 0.7), direction(1e-3, 0)};
     if (scope.domain == Domain::sphere)
         directions.insert(directions.end(), {{0.6, 0, -0.8}, direction(-1e-3, 0.7), direction(0, 0.7)});
+    std::vector<Direction> axes{{0, 0, 1}};
+    if (world) axes = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, direction(-1 + 1e-6, 2.2)};
     std::vector<Point> points;
     for (const auto& alpha : alphas)
         for (const Direction& wo : directions)
-            for (const double u1 : {0.0, 0x1p-24, 0.25, 0.5, 0.75, 1 - 0x1p-24})
-                for (const double u2 : {0.0, 0x1p-24, 0.25, 0.5, 1 - 0x1p-24})
-                    points.push_back(
-                        make_point(wo, alpha, {std::sqrt(1 - u1), 6 * u2}, {0, 0, 1}, {u1, u2}, 1.5));
+            for (const Direction& n : axes)
+                for (const double u1 : {0.0, 0x1p-24, 0.25, 0.5, 0.75, 1 - 0x1p-24})
+                    for (const double u2 : {0.0, 0x1p-24, 0.25, 0.5, 1 - 0x1p-24})
+                        points.push_back(
+                            make_point(wo, alpha, {std::sqrt(1 - u1), 6 * u2}, n, {u1, u2}, 1.5));
     return points;
 }
 
@@ -466,7 +469,8 @@ std::vector<Point> scoped_points(const Function& function, const Scope& scope, s
         const bool round = world || scope.isotropic || random.chance(0.4);
         const Stretched normal{std::sqrt(1 - random.uniform()), random.uniform(-pi, pi)};
         const std::array<double, 2> u{random.u(), random.u()};
-        points.push_back(make_point(wo, {x, round ? x : y}, normal, {0, 0, 1}, u, random.eta()));
+        const Direction n = world ? direction(random.cosine(), random.uniform(-pi, pi)) : Direction{0, 0, 1};
+        points.push_back(make_point(wo, {x, round ? x : y}, normal, n, u, random.eta()));
     }
     refract_some(function, points);
     for (const Point& point : corners(scope, world)) points.push_back(point);

@@ -27,7 +27,21 @@ std::string not_judged(const Function& function, const Scope& scope) {
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-std::string in_words(const Mistake& mistake) {
+// Whether the function passes with doubles for floats.
+bool passes_in_double(const UserKernel& kernel, const runtime::DeviceEvaluator& evaluator,
+                      const Function& function, CheckOptions options) {
+    if (evaluator.input_real() != runtime::Real::f32) return false;
+    std::optional<runtime::DeviceEvaluator> precise = kernel.in_double(evaluator.program().device());
+    if (!precise) return false;
+    options.quick = true;
+    return check(*precise, runtime::Math::strict, {&function}, options).passed();
+}
+
+std::string in_words(const Mistake& mistake, bool rounding) {
+    if (rounding)
+        return "likeliest mistake: none but rounding: the same text with doubles for floats passes; narrow "
+               "lobes (--alpha), "
+               "or formulas that subtract what is nearly equal";
     if (mistake) return fmt::format("likeliest mistake: {} ({})", mistake.what, mistake.evidence);
     if (mistake.none)
         return "no known mistake: moderate roughness seen from the front looks right, to some ten thousand "
@@ -73,9 +87,11 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
         judged.not_judged = not_judged(*judged.function, scope);
         if (!fails(judged)) continue;
         options.progress("looking for the mistake in " + judged.function->name, 1);
-        judged.diagnosis = in_words(judged.function->kind == Kind::sampler
-                                        ? mistake_of_sampler(evaluator, *judged.function, scope, options.seed)
-                                        : mistake_of_value(evaluator, *judged.function, scope, options.seed));
+        const Mistake mistake = judged.function->kind == Kind::sampler
+                                    ? mistake_of_sampler(evaluator, *judged.function, scope, options.seed)
+                                    : mistake_of_value(evaluator, *judged.function, scope, options.seed);
+        const bool rounding = !mistake && passes_in_double(kernel, evaluator, *judged.function, options);
+        judged.diagnosis = in_words(mistake, rounding);
     }
     return report;
 }

@@ -239,11 +239,15 @@ const Function* UserKernel::sample() const {
 }
 
 runtime::ProgramOptions UserKernel::program(runtime::Real real) const {
+    return program_of(files_, real);
+}
+
+runtime::ProgramOptions UserKernel::program_of(const std::deque<File>& files, runtime::Real real) const {
     runtime::ProgramOptions program;
     program.build_options = options_.options;
     program.correct_divide_sqrt = false;
-    program.root = files_.front().path;
-    for (const File& file : files_) program.more_files.push_back({file.path, file.text});
+    program.root = files.front().path;
+    for (const File& file : files) program.more_files.push_back({file.path, file.text});
     // The library by the name that users include it by.
     constexpr std::string_view folder = "kernels/";
     for (const runtime::SourceFile& file : runtime::embedded_sources())
@@ -251,6 +255,24 @@ runtime::ProgramOptions UserKernel::program(runtime::Real real) const {
             program.more_files.push_back({file.path.substr(folder.size()), file.text});
     for (const Function& f : functions_) program.more_source += entry_point(f, std::string(to_string(real)));
     return program;
+}
+
+std::optional<runtime::DeviceEvaluator> UserKernel::in_double(const runtime::Device& device) const {
+    static const std::vector<std::pair<std::regex, const char*>> words{
+        {std::regex(R"re(\bfloat(\d*)\b)re"), "double$1"},
+        {std::regex(R"re(\b(M_\w+)_F\b)re"), "$1"},
+        {std::regex(R"re(\b(?:native|half)_(\w+))re"), "$1"},
+        {std::regex(R"re((\b\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?)[fF]\b)re"), "$1"}};
+    if (!device.fp64) return std::nullopt;
+    std::deque<File> files = files_;
+    for (File& file : files)
+        for (const auto& [word, instead] : words) file.text = std::regex_replace(file.text, word, instead);
+    try {
+        return runtime::DeviceEvaluator(device, runtime::Math::strict, runtime::Real::f64,
+                                        program_of(files, runtime::Real::f64));
+    } catch (const DeviceError&) {
+        return std::nullopt;
+    }
 }
 
 runtime::DeviceEvaluator UserKernel::evaluator(const runtime::Device& device, runtime::Real real) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,17 +52,21 @@ class UserKernel {
     runtime::DeviceEvaluator evaluator(const runtime::Device& device,
                                        runtime::Real real = runtime::Real::f32) const;
 
+    // The same with every float of the user's text a double, which tells rounding from mistakes; nothing if the device or the
+    // compiler will not have it.
+    std::optional<runtime::DeviceEvaluator> in_double(const runtime::Device& device) const;
+
   private:
+    struct File {
+        std::string path, text;
+    };
     void describe();
     void load(const std::string& path, int depth);
-    std::string entry_points() const;
+    runtime::ProgramOptions program_of(const std::deque<File>& files, runtime::Real real) const;
 
     UserOptions options_;
     std::deque<Function> functions_;
     const Function* ours_ = nullptr;
-    struct File {
-        std::string path, text;
-    };
     std::deque<File> files_;
 };
 
