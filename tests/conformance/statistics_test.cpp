@@ -96,3 +96,14 @@ TEST_CASE("a known bias shifts chi-squared by its noncentrality") {
     CHECK(noncentral_chi_square_p(1500, 1000, 0) < 1e-20);
     CHECK(noncentral_chi_square_p(1500, 1000, 500) > 0.1);
 }
+
+TEST_CASE("two samples of one distribution agree, of two do not") {
+    // (60 - 40)^2 / 100 twice; one degree of freedom.
+    const std::vector<std::uint32_t> heads{60, 40}, tails{40, 60};
+    CHECK(same_distribution_p(heads, tails) == Approx(std::erfc(std::sqrt(4.0))));
+    const std::size_t bins = 64;
+    const auto uniform = binned(1 << 16, bins, 1), fewer = binned(1 << 13, bins, 1);
+    CHECK(same_distribution_p(uniform, fewer) > 1e-3);
+    CHECK(same_distribution_p(uniform, binned(1 << 16, bins, 0.9)) < 1e-9);
+    CHECK(same_distribution_p(uniform, std::vector<std::uint32_t>(bins)) == 0);
+}

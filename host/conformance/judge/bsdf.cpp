@@ -17,7 +17,7 @@ namespace vndf::conformance {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr std::size_t samples = std::size_t{1} << 17;
+constexpr std::size_t samples = bsdf_samples;
 constexpr double smallest_alpha = 0.1;  // of lobes that the grid resolves
 constexpr double furnace_limit = 1.002, typical = 1e-3, rare = 0.1;
 
@@ -199,6 +199,7 @@ class Check {
     // Samples against the density, and all light against what is reflected of it, by quadrature and by samples.
     void check_lobes(const std::vector<Point>& lobes, double family_rate) {
         static const Grid grid;
+        findings.tests = lobes.size();
         Finding chi2 = finding_of(fmt::format("chi2 of the samples against {}", density_.name), 1,
                                   sidak(family_rate, std::max<std::size_t>(1, lobes.size())), "probability",
                                   {}, 0),

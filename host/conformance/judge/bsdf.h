@@ -11,8 +11,11 @@
 
 namespace vndf::conformance {
 
+inline constexpr std::size_t bsdf_samples = std::size_t{1} << 17;  // for each lobe
+
 struct BsdfFindings {
     std::vector<Finding> value, density, sample;
+    std::size_t tests = 0;  // statistical ones
     std::string diagnosis;  // of what fails, or empty
 };
 

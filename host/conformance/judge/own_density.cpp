@@ -94,16 +94,18 @@ void settle_rest(const std::vector<std::uint32_t>& counts, std::vector<double>& 
 
 }  // namespace
 
+std::vector<Point> own_density_lobes(const Function& sampler, const Scope& scope) {
+    return lobes(sampler, scope, true);
+}
+
 Finding check_own_density(runtime::DeviceEvaluator& evaluator, const Function& sampler,
-                          const Function& density, const Scope& scope, std::uint64_t seed,
-                          double family_rate) {
+                          const Function& density, const Scope& scope, std::uint64_t seed, double level) {
     const Real real = evaluator.input_real();
-    const std::vector<Point> all = lobes(sampler, scope, true);
     Finding finding;
     finding.check = fmt::format("chi2 of the samples against {}", density.name);
     finding.is_p = true, finding.figure = 1, finding.unit = "probability";
-    finding.limit = sidak(family_rate, all.size());
-    for (const Point& lobe : all) {
+    finding.limit = level;
+    for (const Point& lobe : own_density_lobes(sampler, scope)) {
         const std::vector<double> row = tabulate(sampler, {lobe}, real).row(0);
         const reference::Distribution distribution(sampler.density, RowReader(sampler).lobe(row.data()),
                                                    precision(real));

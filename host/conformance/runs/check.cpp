@@ -119,6 +119,7 @@ class Run {
                 report_.tests += lobes(*function, pointwise_).size() * tests_per_lobe(*function);
             work_total_ += work(*function);
         }
+        report_.tests += options.more_tests;
         report_.level = sidak(family_rate, report_.tests);
         pointwise_.math = math;
         pointwise_.seed = options.seed;

@@ -8,6 +8,7 @@
 #include "conformance/judge/bsdf.h"
 #include "conformance/judge/mistakes.h"
 #include "conformance/judge/own_density.h"
+#include "conformance/judge/statistics.h"
 
 namespace vndf::conformance {
 namespace {
@@ -61,6 +62,8 @@ Report check_bsdf_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& eva
     report.functions = {{&value, std::move(found.value)},
                         {&density, std::move(found.density)},
                         {&sample, std::move(found.sample)}};
+    report.tests = found.tests, report.level = sidak(report.family_rate, found.tests);
+    report.samples = bsdf_samples;
     report.functions.front().not_judged = not_judged(value, kernel.options().scope);
     if (!report.passed())
         report.functions.front().diagnosis = found.diagnosis.empty()
@@ -78,11 +81,12 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
     if (kernel.is_bsdf())
         return check_bsdf_kernel(kernel, evaluator, options,
                                  check(evaluator, runtime::Math::strict, {}, options));
+    if (kernel.pdf()) options.more_tests = own_density_lobes(kernel.function(), scope).size();
     Report report = check(evaluator, runtime::Math::strict, selected, options);
     // Of the samples the reference is the judge: it is their density that does not fit them.
     if (const Function* density = kernel.pdf())
-        report.functions.back().findings.push_back(check_own_density(
-            evaluator, kernel.function(), *density, scope, options.seed, report.family_rate));
+        report.functions.back().findings.push_back(
+            check_own_density(evaluator, kernel.function(), *density, scope, options.seed, report.level));
     for (FunctionReport& judged : report.functions) {
         judged.not_judged = not_judged(*judged.function, scope);
         if (!fails(judged)) continue;
