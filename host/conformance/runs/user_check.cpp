@@ -28,21 +28,26 @@ std::string not_judged(const Function& function, const Scope& scope) {
     return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-// Whether the function passes with doubles for floats.
-bool passes_in_double(const UserKernel& kernel, const runtime::DeviceEvaluator& evaluator,
-                      const Function& function, CheckOptions options) {
-    if (evaluator.input_real() != runtime::Real::f32) return false;
-    std::optional<runtime::DeviceEvaluator> precise = kernel.in_double(evaluator.program().device());
-    if (!precise) return false;
-    options.quick = true;
-    return check(*precise, runtime::Math::strict, {&function}, options).passed();
+// The same with doubles for floats, if it has floats now.
+std::optional<runtime::DeviceEvaluator> in_double(const UserKernel& kernel,
+                                                  const runtime::DeviceEvaluator& evaluator) {
+    if (evaluator.input_real() != runtime::Real::f32) return std::nullopt;
+    return kernel.in_double(evaluator.program().device());
 }
 
-std::string in_words(const Mistake& mistake, bool rounding) {
-    if (rounding)
-        return "likeliest mistake: none but rounding: the same text with doubles for floats passes; narrow "
-               "lobes (--alpha), "
-               "or formulas that subtract what is nearly equal";
+bool passes_in_double(const UserKernel& kernel, const runtime::DeviceEvaluator& evaluator,
+                      const Function& function, CheckOptions options) {
+    std::optional<runtime::DeviceEvaluator> precise = in_double(kernel, evaluator);
+    options.quick = true;
+    return precise && check(*precise, runtime::Math::strict, {&function}, options).passed();
+}
+
+constexpr const char* only_rounding =
+    "likeliest mistake: none but rounding: the same text with doubles for floats passes; narrow lobes "
+    "(--alpha), or formulas "
+    "that subtract what is nearly equal";
+
+std::string in_words(const Mistake& mistake) {
     if (mistake) return fmt::format("likeliest mistake: {} ({})", mistake.what, mistake.evidence);
     if (mistake.none)
         return "no known mistake: moderate roughness seen from the front looks right, to some ten thousand "
@@ -51,26 +56,40 @@ std::string in_words(const Mistake& mistake, bool rounding) {
     return "no known mistake explains it";
 }
 
-Report check_bsdf_kernel(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator,
-                         const CheckOptions& options, Report report) {
+// The report but for the words on what fails, and these if it is no rounding.
+std::pair<Report, std::string> bsdf_report(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator,
+                                           const CheckOptions& options) {
+    Report report = check(evaluator, runtime::Math::strict, {}, options);
     const Function &value = kernel.function(), &density = *kernel.pdf(), &sample = *kernel.sample();
-    options.progress(value.name, 0);
     const std::size_t rows =
         options.random_points ? options.random_points : std::size_t{1} << (options.quick ? 14 : 16);
-    BsdfFindings found = check_bsdf(evaluator, value, density, sample, kernel.options().scope, options.quick,
-                                    rows, options.seed, report.family_rate);
-    report.functions = {{&value, std::move(found.value)},
-                        {&density, std::move(found.density)},
-                        {&sample, std::move(found.sample)}};
+    BsdfFindings found = check_bsdf(evaluator, value, density, sample, *options.scope, options.quick, rows,
+                                    options.seed, report.family_rate);
+    const auto add = [&](const Function& function, std::vector<Finding>& findings) {
+        FunctionReport& judged = report.functions.emplace_back();
+        judged.function = &function, judged.findings = std::move(findings);
+    };
+    add(value, found.value), add(density, found.density), add(sample, found.sample);
     report.tests = found.tests, report.level = sidak(report.family_rate, found.tests);
     report.samples = bsdf_samples;
-    report.functions.front().not_judged = not_judged(value, kernel.options().scope);
-    if (!report.passed())
-        report.functions.front().diagnosis = found.diagnosis.empty()
-                                                 ? "no known mistake explains it"
-                                                 : "likeliest mistake: " + found.diagnosis;
+    return {std::move(report), std::move(found.diagnosis)};
+}
+
+Report judged_bsdf(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator,
+                   const CheckOptions& options) {
+    options.progress(kernel.function().name, 0);
+    auto [report, mistake] = bsdf_report(kernel, evaluator, options);
+    FunctionReport& first = report.functions.front();
+    first.not_judged = not_judged(*first.function, *options.scope);
+    if (!report.passed()) {
+        std::optional<runtime::DeviceEvaluator> precise = in_double(kernel, evaluator);
+        const bool rounding = precise && bsdf_report(kernel, *precise, options).first.passed();
+        first.diagnosis = rounding          ? only_rounding
+                          : mistake.empty() ? "no known mistake explains it"
+                                            : "likeliest mistake: " + mistake;
+    }
     options.progress("", 1);
-    return report;
+    return std::move(report);
 }
 
 Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, CheckOptions options) {
@@ -78,9 +97,7 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
     options.scope = &scope;
     std::vector<const Function*> selected;
     for (const Function& function : kernel.functions()) selected.push_back(&function);
-    if (kernel.is_bsdf())
-        return check_bsdf_kernel(kernel, evaluator, options,
-                                 check(evaluator, runtime::Math::strict, {}, options));
+    if (kernel.is_bsdf()) return judged_bsdf(kernel, evaluator, options);
     if (kernel.pdf()) options.more_tests = own_density_lobes(kernel.function(), scope).size();
     Report report = check(evaluator, runtime::Math::strict, selected, options);
     // Of the samples the reference is the judge: it is their density that does not fit them.
@@ -95,7 +112,7 @@ Report judged(const UserKernel& kernel, runtime::DeviceEvaluator& evaluator, Che
                                     ? mistake_of_sampler(evaluator, *judged.function, scope, options.seed)
                                     : mistake_of_value(evaluator, *judged.function, scope, options.seed);
         const bool rounding = !mistake && passes_in_double(kernel, evaluator, *judged.function, options);
-        judged.diagnosis = in_words(mistake, rounding);
+        judged.diagnosis = rounding ? only_rounding : in_words(mistake);
     }
     return report;
 }
