@@ -605,16 +605,24 @@ class MaterialView {
 
     // --- What glass gets back ---
 
-    // On what it reflects by its index, and on what it lets through; of a thin wall what makes up for the loss of a mirror.
+    // On what it reflects by its index, and on what it lets through; of a thin wall what makes up for the loss of a mirror. A brighter
+    // interface gets back less, and of a weaker one more goes through at once.
     std::pair<R, R> factors(const Losses<R>& losses) const {
         if (model_.energy != MaterialModel::Energy::turquin) return {1, 1};
-        const R mirrors = 1 / (1 - losses.o), back = media_.body ? losses.reflected : mirrors;
-        return {1 + p_.transmission * (back - 1), media_.body ? losses.refracted : mirrors};
+        if (!media_.body) {
+            const R mirrors = 1 / (1 - losses.o);
+            return {1 + p_.transmission * (mirrors - 1), mirrors};
+        }
+        const R upright = media_.upright(), brightest = media_.brightest(),
+                moved = within<R>((brightest - 1) * upright / (1 - upright), 0, 1),
+                in = 1 - media_.strengthened(upright, brightest),
+                weaker = in > 1 - upright ? (1 - upright) / in : R(1);
+        return {1 + p_.transmission * (1 - moved) * (losses.reflected - 1), losses.refracted * weaker};
     }
     // Of one facet and of those that follow: by the index, and what a brighter colour reflects beyond that, once.
     R returned(const R& cosine, const R& tint, const Losses<R>& losses) const {
         const R all = media_.reflectance(cosine, tint), by_index = media_.reflectance(cosine, R(1));
-        const R own = std::min(all, by_index);
+        const R own = media_.body ? std::min(all, by_index) : all;
         return all - own + factors(losses).first * own;
     }
     R returned_rounding(const R& cosine, const R& tint, const Losses<R>& losses) const {

@@ -45,7 +45,7 @@ struct vndf_impl_interface {
     VNDF_REAL expected;
 #endif
 #if VNDF_IMPL_GLASS_ENERGY
-    struct vndf_energy_factors factors;
+    VNDF_REAL returned, refracted;  // factors for what scatters between facets
 #endif
 };
 VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
@@ -98,19 +98,20 @@ VNDF_FN VNDF_REAL vndf_impl_interface_likely(struct vndf_impl_interface n) {
 }
 #endif
 
-// With what scattering between facets adds to the part that one of them reflects: to that by the index, no more than there is,
-// and nothing to what a colour adds; and to the part that gets in.
+// With what scattering between facets adds to the part that one of them reflects: of a body, to what that is by the index, no more
+// than there is, and nothing to what a colour adds; and to the part that gets in.
 #if VNDF_IMPL_GLASS_ENERGY
 VNDF_FN VNDF_REAL vndf_impl_interface_returns(struct vndf_impl_interface n, VNDF_REAL f, VNDF_REAL part) {
 #if VNDF_SPECULAR
     VNDF_REAL own = vndf_impl_min(n.plain && f >= VNDF_R(1.0) ? f : n.gloss.strength * f, part);
+    own = n.body ? own : part;
 #else
     VNDF_REAL own = f;
 #endif
-    return VNDF_FMA(own, n.factors.reflected - VNDF_R(1.0), part);
+    return VNDF_FMA(own, n.returned - VNDF_R(1.0), part);
 }
 VNDF_FN VNDF_REAL vndf_impl_interface_lets_in(struct vndf_impl_interface n, VNDF_REAL part) {
-    return n.factors.refracted * part;
+    return n.refracted * part;
 }
 #else
 VNDF_FN VNDF_REAL vndf_impl_interface_returns(struct vndf_impl_interface n, VNDF_REAL f, VNDF_REAL part) {
@@ -163,7 +164,21 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
         n, vndf_impl_interface_likely(n), vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta));
 #endif
 #if VNDF_IMPL_GLASS_ENERGY
-    n.factors = vndf_impl_bsdf_glass_factors(o, vndf_impl_bsdf_alpha(b), n.eta, n.transmission, n.body);
+    VNDF_REAL counts = n.transmission, weaker = VNDF_R(1.0);
+#if VNDF_SPECULAR
+    // The table is of an interface as its index makes it. A brighter one scatters less through its facets, and of a weaker one more
+    // gets in at once: by as much less is given back, so that there is never much more than falls on it.
+    VNDF_REAL bright = VNDF_R(1.0) - vndf_impl_interface_likely(n);
+    VNDF_REAL upright = vndf_fresnel_dielectric(VNDF_R(1.0), n.eta),
+              in = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), upright);
+    weaker = vndf_impl_share((VNDF_R(1.0) - upright) / (in > VNDF_R(0.0) ? in : VNDF_R(1.0)));
+    weaker = n.body && in > VNDF_R(0.0) ? weaker : VNDF_R(1.0);
+    counts *= n.body ? bright : VNDF_R(1.0);
+#endif
+    struct vndf_energy_factors factors =
+        vndf_impl_bsdf_glass_factors(o, vndf_impl_bsdf_alpha(b), n.eta, counts, n.body);
+    n.returned = factors.reflected;
+    n.refracted = factors.refracted * weaker;
 #endif
     return n;
 }

@@ -377,6 +377,18 @@ TEST_CASE("a kept table is read back, and a damaged one is found out") {
     refused(surfaces[0], changed);
 }
 
+TEST_CASE("a kept table of glass is read back, and no other is taken for it") {
+    energy::GlassTable table{surfaces[0], std::vector<float>(energy::GlassTable::numbers, 9876)};
+    table.parts[7] = 12345;
+    const std::string text = energy::kept(table), header = energy::header(table);
+    CHECK(energy::read_kept_glass(surfaces[0], text, "file").parts == table.parts);
+    CHECK_THROWS_AS(energy::read_kept_glass(surfaces[1], text, "file"), InputError);
+    CHECK_THROWS_AS(energy::read_kept_glass(surfaces[0], text + "1\n", "file"), InputError);
+    CHECK_THROWS_AS(energy::read_kept(surfaces[0], text, "file"), InputError);
+    CHECK(header.find("unsigned short vndf_energy_glass_parts[10400] = {") != std::string::npos);
+    CHECK(header.find(" 12345,") != std::string::npos);
+}
+
 namespace {
 
 // Metals by eta and k: gold's red, green and blue.
@@ -482,7 +494,7 @@ Parts glass_gap(const char* energy, double alpha_x, double alpha_y, double eta, 
     const BsdfProgram& model =
         models
             .try_emplace(energy,
-                         std::string("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance ENERGY=") + energy)
+                         fmt::format("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance ENERGY={}", energy))
             .first->second;
     Parts worst;
     for (const double cosine : {.1, .3, .6, 1.})
@@ -515,6 +527,29 @@ TEST_CASE("what rough glass loses beside the walk is what it is said to be") {
     expect("none", 1, 1.5, .011, .570);
     expect("turquin", .1, 1.5, 0, 0);
     expect("turquin", 1, 1.5, 0, 0);
+}
+
+// What the table knows nothing of: a weaker interface and one with a colour.
+TEST_CASE("glass with any interface gives back little more than there is") {
+    const BsdfProgram program("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance ENERGY=turquin");
+    constexpr std::size_t count = 1 << 11;
+    for (const double eta : {1.1, 1.5, 2.5, 1 / 1.1, 1 / 1.5, 1 / 2.5})
+        for (const double alpha : {.3, 1.})
+            for (const double cosine : {.1, .5, 1.})
+                for (const auto& [specular, colour] :
+                     {std::pair{0., 1.}, {.5, 1.}, {1., 0.}, {1., 4.}, {.5, 30.}, {1., 30.}}) {
+                    Columns in = metal_rows({direction(cosine, .3), alpha, alpha}, count, false);
+                    const auto set = [&](const char* name, double x) {
+                        in[6 + material_parameter(name)].assign(count, x);
+                    };
+                    set("metal", 0), set("ior", eta), set("thin_walled", 0), set("specular", specular);
+                    for (const char* channel :
+                         {"specular_colour_r", "specular_colour_g", "specular_colour_b"})
+                        set(channel, colour);
+                    const Parts all = parts_of(program.sample(in));
+                    CAPTURE(eta, alpha, cosine, specular, colour, all.reflected, all.through);
+                    CHECK(all.reflected + all.through < 1.06);
+                }
 }
 
 // By hand: the tables of kernels/README.md.
