@@ -200,9 +200,12 @@ VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VN
     VNDF_REAL through = vndf_impl_interface_lets_in(n, in) * n.transmission;
 #if VNDF_LAMBERT || VNDF_IMPL_GLASS_ENERGY
     // Of what is neither reflected nor transmitted nobody asks here. Where all is, rounding is left alone.
-    int some = VNDF_IMPL_GLASS_ENERGY || n.transmission < VNDF_R(1.0);
-    VNDF_REAL sum = some ? back + through : VNDF_R(1.0),
-              rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+#if VNDF_IMPL_GLASS_ENERGY
+    VNDF_REAL sum = back + through;
+#else
+    VNDF_REAL sum = n.transmission < VNDF_R(1.0) ? back + through : VNDF_R(1.0);
+#endif
+    VNDF_REAL rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
     back *= rcp;
     through *= rcp;
 #endif
