@@ -113,6 +113,7 @@ std::vector<EffectCost> effect_programs() {
         if (name != "conductor") all.push_back(cost_of("conductor and " + name, "conductor," + name));
     all.push_back(cost_of("glass: dielectric and back_facing", "dielectric,back_facing"));
     all.push_back(cost_of("the same, sampling plain", "dielectric,back_facing,sampling=plain"));
+    all.push_back(cost_of("the same, energy turquin", "dielectric,back_facing,energy=turquin"));
     for (const EffectChoice& choice : effect_choices())
         for (std::size_t i = 1; i < choice.values.size(); ++i)
             all.push_back(cost_of(fmt::format("conductor alone, {} {}", choice.name, choice.values[i]),

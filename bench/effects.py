@@ -44,6 +44,7 @@ def variants():
     glass = {**small, "CONDUCTOR": 0, "DIELECTRIC": 1, "BACK_FACING": 1}
     yield "glass: dielectric and back_facing", glass
     yield "the same, sampling plain", {**glass, "SAMPLING": "plain"}
+    yield "the same, energy turquin", {**glass, "ENERGY": "turquin"}
     for name, values in CHOICES:
         for value in values[1:]:
             yield f"conductor alone, {name.lower()} {value}", {**small, name: value}

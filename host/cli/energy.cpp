@@ -21,7 +21,29 @@ namespace fs = std::filesystem;
 
 struct Energy {
     energy::Surface surface{"ggx", "correlated"};
-    std::string device, output = "-", cache;
+    std::string of = "conductor", device, output = "-", cache;
+};
+
+// What there is of each kind of table.
+struct Conductor {
+    using Table = energy::Table;
+    static constexpr const char* prefix = "energy";
+    static Table read(const energy::Surface& s, const std::string& text, const std::string& path) {
+        return energy::read_kept(s, text, path);
+    }
+    static Table measured(const runtime::Device& d, const energy::Surface& s) {
+        return energy::measured(d, s);
+    }
+};
+struct Glass {
+    using Table = energy::GlassTable;
+    static constexpr const char* prefix = "energy-glass";
+    static Table read(const energy::Surface& s, const std::string& text, const std::string& path) {
+        return energy::read_kept_glass(s, text, path);
+    }
+    static Table measured(const runtime::Device& d, const energy::Surface& s) {
+        return energy::measured_glass(d, s);
+    }
 };
 
 // A folder of the user for what can be made again; empty where there is none.
@@ -33,12 +55,13 @@ std::string default_cache() {
 }
 
 // What was kept, if it is whole.
-std::optional<energy::Table> found(const Energy& e, const std::string& path, const Common& common) {
+template <class Kind>
+std::optional<typename Kind::Table> found(const Energy& e, const std::string& path, const Common& common) {
     std::ifstream file(path, std::ios::binary);
     if (!file) return {};
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     try {
-        return energy::read_kept(e.surface, text, path);
+        return Kind::read(e.surface, text, path);
     } catch (const InputError& error) {
         if (!common.quiet) remark("clvndf: {}; it is made again\n", error.what());
         return {};
@@ -46,7 +69,8 @@ std::optional<energy::Table> found(const Energy& e, const std::string& path, con
 }
 
 // A table that cannot be kept is made all the same.
-void keep(const energy::Table& table, const std::string& path, const Common& common) {
+template <class Table>
+void keep(const Table& table, const std::string& path, const Common& common) {
     try {
         std::error_code none;
         fs::create_directories(fs::path(path).parent_path(), none);
@@ -58,15 +82,18 @@ void keep(const energy::Table& table, const std::string& path, const Common& com
     }
 }
 
+template <class Kind>
 void run(const Energy& e, const Common& common) {
     OutputFile output(e.output);
     const std::string path =
-        e.cache.empty() ? "" : fmt::format("{}/energy-{}-{}", e.cache, e.surface.ndf, e.surface.masking);
-    std::optional<energy::Table> table = path.empty() ? std::nullopt : found(e, path, common);
+        e.cache.empty() ? ""
+                        : fmt::format("{}/{}-{}-{}", e.cache, Kind::prefix, e.surface.ndf, e.surface.masking);
+    std::optional<typename Kind::Table> table;
+    if (!path.empty()) table = found<Kind>(e, path, common);
     if (!table) {
         Target target;
         target.device = e.device;
-        table = energy::measured(target.choose(common), e.surface);
+        table = Kind::measured(target.choose(common), e.surface);
         if (!path.empty()) keep(*table, path, common);
     }
     output.write(energy::header(*table));
@@ -81,6 +108,9 @@ void add_energy(CLI::App& app, Common& common) {
     const auto e = std::make_shared<Energy>();
     e->cache = default_cache();
     add_device(*command, e->device);
+    command->add_option("--of", e->of, "surface: conductor or glass")
+        ->check(CLI::IsMember({"conductor", "glass"}))
+        ->capture_default_str();
     command->add_option("--ndf", e->surface.ndf, "distribution: ggx or beckmann")
         ->check(CLI::IsMember({"ggx", "beckmann"}))
         ->capture_default_str();
@@ -93,7 +123,11 @@ void add_energy(CLI::App& app, Common& common) {
                         "(default: clvndf in $XDG_CACHE_HOME, else in ~/.cache)");
     command->add_flag_callback(
         "--no-cache", [e] { e->cache.clear(); }, "measure, and keep nothing");
-    command->callback([e, &common] { common.action = [e, &common] { run(*e, common); }; });
+    command->callback([e, &common] {
+        common.action = [e, &common] {
+            e->of == "glass" ? run<Glass>(*e, common) : run<Conductor>(*e, common);
+        };
+    });
 }
 
 }  // namespace vndf::cli

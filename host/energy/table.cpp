@@ -1,14 +1,11 @@
 #include "energy/table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
 
 #include <fmt/format.h>
 
-#include "error.h"
-#include "hash.h"
+#include "energy/kept.h"
 #include "text.h"
 
 namespace vndf::energy {
@@ -17,17 +14,15 @@ namespace {
 // To be raised with every change of what a table holds.
 constexpr int version = 1;
 
-std::string first_line(const Surface& surface, std::string_view numbers) {
-    return fmt::format("clvndf energy table {} {} {} {} {} {:016x}\n", version, surface.ndf, surface.masking,
-                       Table::rows, Table::columns, fnv1a(numbers));
+std::string title(const Surface& surface) {
+    return fmt::format("clvndf energy table {} {} {} {} {}", version, surface.ndf, surface.masking,
+                       Table::rows, Table::columns);
 }
 
 std::string array(const std::string& name, const std::vector<float>& values) {
-    std::string text = fmt::format("VNDF_CONSTANT float {}[{}] = {{", name, values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        text += fmt::format("{}{:.5f}f,", i % 12 == 0 ? "\n    " : " ", values[i]);
-    text.pop_back();
-    return text + "};\n";
+    std::vector<std::string> numbers;
+    for (const float x : values) numbers.push_back(fmt::format("{:.5f}f", x));
+    return array_text("float", name, numbers);
 }
 
 // The value between the nodes around a row and a column.
@@ -72,10 +67,14 @@ double alpha_of(double row) {
     return 2 * place * place;
 }
 
-double cosine_of(double column, double alpha) {
-    const double place = column / (Table::columns - 1), t = (1 - place) * (1 + place);  // tan(theta / 2)
+double stretched_cosine_of(double place, double stretch) {
+    const double t = (1 - place) * (1 + place);  // tan(theta / 2)
     const double x = (1 - t) * (1 + t) / (1 + t * t), sine = 2 * t / (1 + t * t);
-    return x * alpha / std::hypot(x * alpha, sine);
+    return x * stretch / std::hypot(x * stretch, sine);
+}
+
+double cosine_of(double column, double alpha) {
+    return stretched_cosine_of(column / (Table::columns - 1), alpha);
 }
 
 double average(const Table& table, double alpha) {
@@ -108,30 +107,11 @@ std::string header(const Table& table) {
 }
 
 std::string kept(const Table& table) {
-    std::string numbers;
-    for (const float x : table.losses) numbers += fmt::format("{:.9g}\n", x);
-    return first_line(table.surface, numbers) + numbers;
+    return kept_text(title(table.surface), table.losses);
 }
 
 Table read_kept(const Surface& surface, std::string_view text, const std::string& path) {
-    const std::size_t end = text.find('\n');
-    const std::string_view numbers = end == text.npos ? std::string_view() : text.substr(end + 1);
-    const std::string wanted = first_line(surface, numbers);
-    if (end == text.npos || text.substr(0, end + 1) != wanted)
-        throw InputError(fmt::format("{}:1: no table of {} {}, or it is damaged: '{}' is wanted", path,
-                                     surface.ndf, surface.masking, wanted.substr(0, wanted.size() - 1)));
-    std::vector<float> values;
-    for (const char *at = numbers.data(), *last = at + numbers.size(); at < last; ++at) {
-        float value = 0;
-        const auto [next, error] = std::from_chars(at, last, value);
-        if (error != std::errc() || !(value >= 0)) break;
-        values.push_back(value);
-        at = next;
-    }
-    constexpr std::size_t count = Table::rows * Table::columns;
-    if (values.size() != count)
-        throw InputError(fmt::format("{}: {} numbers, not {}", path, values.size(), count));
-    return {surface, values};
+    return {surface, read_kept_text(title(surface), Table::rows * Table::columns, text, path)};
 }
 
 }  // namespace vndf::energy

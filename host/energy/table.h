@@ -24,6 +24,9 @@ struct Table {
 double alpha_of(double row);
 double cosine_of(double column, double alpha);
 
+// The cosine at a place in [0, 1], sqrt(1 - tan(theta / 2)) with theta after the stretch.
+double stretched_cosine_of(double place, double stretch);
+
 // The mean by the cosine law of what the table gives for alpha, so that a lobe made of both keeps all light.
 double average(const Table& table, double alpha);
 

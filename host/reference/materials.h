@@ -126,10 +126,11 @@ struct MaterialParameters {
     bool thin_walled = false;
 };
 
-// What single scattering loses along wo and wi, both above the surface, and in the mean: given, not derived here.
+// What single scattering loses along wo and wi, both above the surface, and in the mean; and what makes up for it on what glass
+// reflects and refracts: given, not derived here.
 template <class R>
 struct Losses {
-    R o = 0, i = 0, average = 0;
+    R o = 0, i = 0, average = 0, reflected = 1, refracted = 1;
 };
 
 // The mean 2 integral of f(c) c dc by the Gaussian rule of four nodes: the roots of the polynomial of degree 4 that the weight c
@@ -353,8 +354,8 @@ class MaterialView {
     MaterialValue<R> operator()(const Vec3<R>& direction, const Losses<R>& losses = {}) const {
         const Vec3<R> wi = behind_ ? Vec3<R>{direction.x, direction.y, -direction.z} : direction;
         MaterialValue<R> value = !crosses(wi)  ? reflected(wi, losses)
-                                 : media_.body ? refracted(wi)
-                                               : straight(wi);
+                                 : media_.body ? refracted(wi, losses)
+                                               : straight(wi, losses);
         if (inside_ && !moved_ && !density_alone_) add_index_slope(direction, losses, value);
         return moved_ ? value : coated(wi, value);
     }
@@ -457,7 +458,7 @@ class MaterialView {
                 multiple = p_.metal * multiple_share(losses),
                 diffuse_pdf = (diffuse_share() + multiple) * lambert_pdf(wi);
         const auto pdf = [&](const R& c) {
-            return (p_.metal - multiple + odds(c).first) * mirror_pdf + diffuse_pdf;
+            return (p_.metal - multiple + odds(c, losses).first) * mirror_pdf + diffuse_pdf;
         };
         value.pdf = pdf(cosine);
         if (density_alone_) return value;
@@ -465,7 +466,7 @@ class MaterialView {
         const R unlit =
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
         value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition() +
-                          (by_normal() ? (1 - p_.metal) * mirror_pdf * media_.rounding(cosine) : R(0));
+                          (by_normal() ? (1 - p_.metal) * mirror_pdf * odds_rounding(cosine, losses) : R(0));
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
@@ -479,7 +480,7 @@ class MaterialView {
             if (model_.energy == MaterialModel::Energy::turquin)
                 scale *= 1 + p_.tint[c] * reflectance(c, R(1)) * losses.o / (1 - losses.o);
             const R colour = media_.colour[c];
-            const auto dielectric = [&](const R& x) { return rest * mirror * media_.reflectance(x, colour); };
+            const auto dielectric = [&](const R& x) { return rest * mirror * returned(x, colour, losses); };
             const R white = rest * (1 - p_.transmission) * wi.z / pi<R>();
             const auto [beyond, size] = beyond_lambert(p_.albedo[c], wi);
             const R under = white * (paint(p_.albedo[c]) + beyond);
@@ -489,7 +490,8 @@ class MaterialView {
                              value.f[c] / height_i +
                              under * (lets_in * smooth_slope(wi.z) + lets_out * smooth_slope(wo_.z)) +
                              white * size * lets_in * lets_out +
-                             rest * mirror * media_.rounding(cosine, colour) + diffuse * colour_slope();
+                             rest * mirror * returned_rounding(cosine, colour, losses) +
+                             diffuse * colour_slope();
             if (model_.energy == MaterialModel::Energy::turquin)
                 value.slope[c] += scale * reflectance(c, cosine) * losses.o * reflectance_slope(c, R(1));
             if (model_.energy != MaterialModel::Energy::kulla_conty) continue;
@@ -504,24 +506,24 @@ class MaterialView {
     // --- Below it ---
 
     // Through a wall without thickness: a reflection turned to the other side.
-    MaterialValue<R> straight(const Vec3<R>& wi) const {
+    MaterialValue<R> straight(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
         const Vec3<R> raised{wi.x, wi.y, -wi.z}, h = half(raised);
         value.exponent = exponent(h);
         const R cosine = (dot(wo_, h) + dot(raised, h)) / 2, seen = facets_pdf(base_, raised);
-        const auto pdf = [&](const R& c) { return odds(c).second * seen; };
+        const auto pdf = [&](const R& c) { return odds(c, losses).second * seen; };
         value.pdf = pdf(cosine);
         if (density_alone_) return value;
         const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
         // Next to a facet that is seen from its edge 1 - F has few digits.
         const R edge = 1 / cosine;
-        value.pdf_slope =
-            by_cosine(pdf, cosine) * cosine + value.pdf * (1 + edge + unlit) + seen * media_.rounding(cosine);
+        value.pdf_slope = by_cosine(pdf, cosine) * cosine + value.pdf * (1 + edge + unlit) +
+                          seen * odds_rounding(cosine, losses);
         const R height_o = dot(wo_, ng_), height_i = -dot(wi, ng_);
         value.settled = settled(base_, raised, height_o, height_i) && !opposite(raised);
         if (!(wo_.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
-        const R whole =
-            part(raised, height_i) * (1 - p_.metal) * p_.transmission * mirrored(base_, h, raised);
+        const R whole = factors(losses).second * part(raised, height_i) * (1 - p_.metal) * p_.transmission *
+                        mirrored(base_, h, raised);
         const auto light = [&](const R& c) { return whole * (1 - media_.reflectance(c)); };
         for (int c = 0; c < 3; ++c) {
             value.f[c] = p_.transmittance[c] * light(cosine);
@@ -534,7 +536,7 @@ class MaterialView {
 
     // Where only a refraction leads.
 
-    MaterialValue<R> refracted(const Vec3<R>& wi) const {
+    MaterialValue<R> refracted(const Vec3<R>& wi, const Losses<R>& losses) const {
         MaterialValue<R> value;
         const R height_o = dot(wo_, ng_), height_i = -dot(wi, ng_);
         value.settled = !level(height_o) && !level(height_i);
@@ -549,22 +551,22 @@ class MaterialView {
         const R seen = ggx ? pdf_wm<Ggx, R>(wo_, h, p_.alpha_x, p_.alpha_y)
                            : pdf_wm<Beckmann, R>(wo_, h, p_.alpha_x, p_.alpha_y);
         const R jacobian = media_.jacobian(cos_o, cos_i);
-        const auto pdf = [&](const R& c) { return odds(c).second * seen * jacobian; };
+        const auto pdf = [&](const R& c) { return odds(c, losses).second * seen * jacobian; };
         value.pdf = pdf(cos_o);
         if (density_alone_) return value;
         // Twice the roundings of a reflection: of its density, and of the cosines with the facet.
         const R edge = 1 / cos_o + 1 / cos_i;
         const R unlit = smooth_slope(wo_.z) * (1 - p_.transmission) / p_.transmission;
         value.pdf_slope = by_cosine(pdf, cos_o) + value.pdf * (1 + edge + choice_condition() + unlit) +
-                          (by_normal() ? seen * jacobian * media_.rounding(cos_o) : R(0));
+                          (by_normal() ? seen * jacobian * odds_rounding(cos_o, losses) : R(0));
         if (!(wo_.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
         const Vec3<R> raised{wi.x, wi.y, -wi.z};
         const R facets = ggx ? crossed<Ggx>(h, raised) : crossed<Beckmann>(h, raised);
         // Equation 21, of light from wi (radiance) or to it, times |cos(theta_i)|.
         const R index = model_.transport == MaterialModel::Transport::radiance ? media_.here : media_.there;
         const R bent = cos_o * cos_i / wo_.z * squared(index / (media_.here * cos_o - media_.there * cos_i));
-        const R whole =
-            part({-wi.x, -wi.y, -wi.z}, height_i) * (1 - p_.metal) * p_.transmission * bent * facets;
+        const R whole = factors(losses).second * part({-wi.x, -wi.y, -wi.z}, height_i) * (1 - p_.metal) *
+                        p_.transmission * bent * facets;
         const auto light = [&](const R& c) { return whole * (1 - media_.reflectance(c)); };
         for (int c = 0; c < 3; ++c) {
             value.f[c] = p_.transmittance[c] * light(cos_o);
@@ -579,12 +581,52 @@ class MaterialView {
 
     R diffuse_share() const { return (1 - p_.metal) * (1 - p_.transmission) * (1 - media_.chance(wo_.z)); }
     // Of a reflection by the dielectric and of a refraction, for facets of this cosine.
-    std::pair<R, R> odds(const R& cosine) const {
-        const R f =
-            by_normal() ? media_.reflectance(cosine) : media_.expected(mean_cosine_, p_.alpha_x, p_.alpha_y);
-        const R through = (1 - f) * p_.transmission, sum = f + through,
+    std::pair<R, R> odds(const R& cosine, const Losses<R>& losses) const {
+        const auto [back, in] = by_normal() ? std::pair<R, R>{returned(cosine, media_.brightest(), losses),
+                                                              1 - media_.reflectance(cosine)}
+                                            : expected(losses);
+        const R through = in * factors(losses).second * p_.transmission, sum = back + through,
                 whole = 1 - p_.metal - diffuse_share();
-        return sum > 0 ? std::pair<R, R>{whole * f / sum, whole * through / sum} : std::pair<R, R>{};
+        return sum > 0 ? std::pair<R, R>{whole * back / sum, whole * through / sum} : std::pair<R, R>{};
+    }
+    // The same before the normal, with the expected reflectance.
+    std::pair<R, R> expected(const Losses<R>& losses) const {
+        const R f = media_.expected(mean_cosine_, p_.alpha_x, p_.alpha_y),
+                more = media_.specular * f * (factors(losses).first - 1);
+        return {f + more, 1 - f};
+    }
+
+    // What the rounding of the reflectance makes of that: a b / (a f + b (1 - f))^2 of it.
+    R odds_rounding(const R& cosine, const Losses<R>& losses) const {
+        const R f = media_.reflectance(cosine);
+        const auto [a, b] = factors(losses);
+        return media_.rounding(cosine) * a * b / squared(a * f + b * (1 - f));
+    }
+
+    // --- What glass gets back ---
+
+    // On what it reflects by its index, and on what it lets through; of a thin wall what makes up for the loss of a mirror. A brighter
+    // interface gets back less, and of a weaker one more goes through at once.
+    std::pair<R, R> factors(const Losses<R>& losses) const {
+        if (model_.energy != MaterialModel::Energy::turquin) return {1, 1};
+        if (!media_.body) {
+            const R mirrors = 1 / (1 - losses.o);
+            return {1 + p_.transmission * (mirrors - 1), mirrors};
+        }
+        const R upright = media_.upright(), brightest = media_.brightest(),
+                moved = within<R>((brightest - 1) * upright / (1 - upright), 0, 1),
+                in = 1 - media_.strengthened(upright, brightest),
+                weaker = in > 1 - upright ? (1 - upright) / in : R(1);
+        return {1 + p_.transmission * (1 - moved) * (losses.reflected - 1), losses.refracted * weaker};
+    }
+    // Of one facet and of those that follow: by the index, and what a brighter colour reflects beyond that, once.
+    R returned(const R& cosine, const R& tint, const Losses<R>& losses) const {
+        const R all = media_.reflectance(cosine, tint), by_index = media_.reflectance(cosine, R(1));
+        const R own = media_.body ? std::min(all, by_index) : all;
+        return all - own + factors(losses).first * own;
+    }
+    R returned_rounding(const R& cosine, const R& tint, const Losses<R>& losses) const {
+        return factors(losses).first * media_.rounding(cosine, tint);
     }
 
     // --- Conditions ---

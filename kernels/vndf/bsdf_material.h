@@ -13,6 +13,8 @@ VNDF_BEGIN
 #define VNDF_IMPL_FACETS (VNDF_IMPL_SPECULAR || VNDF_COAT)
 #define VNDF_IMPL_KULLA_CONTY (VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty))
 #define VNDF_IMPL_DIFFUSE (VNDF_LAMBERT || VNDF_IMPL_KULLA_CONTY)
+// What gives a dielectric energy back.
+#define VNDF_IMPL_GLASS_ENERGY (VNDF_DIELECTRIC && VNDF_CHOSEN(VNDF_ENERGY, turquin))
 
 // A material at a point. Every member of a reflectance is in [0, 1].
 struct vndf_bsdf {

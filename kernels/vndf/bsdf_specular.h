@@ -62,15 +62,19 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_transmitted(struct vndf_impl_bsdf_view v,
 }
 
 // What the interface reflects of each channel, f by its index.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_mirrored_channel(struct vndf_impl_interface n, VNDF_REAL excess,
+                                                  VNDF_REAL f) {
+    return vndf_impl_interface_returns(n, f, vndf_impl_interface_reflects(n, excess, f));
+}
 VNDF_FN struct vndf_rgb vndf_impl_bsdf_mirrored(struct vndf_impl_interface n, VNDF_REAL f) {
 #if VNDF_SPECULAR
-    VNDF_REAL red = vndf_impl_interface_reflects(n, n.gloss.excess.r, f);
-    VNDF_REAL green = vndf_impl_interface_reflects(n, vndf_impl_next_channel(n.gloss.excess.g, red), f);
-    VNDF_REAL blue = vndf_impl_interface_reflects(n, vndf_impl_next_channel(n.gloss.excess.b, green), f);
+    VNDF_REAL red = vndf_impl_bsdf_mirrored_channel(n, n.gloss.excess.r, f);
+    VNDF_REAL green = vndf_impl_bsdf_mirrored_channel(n, vndf_impl_next_channel(n.gloss.excess.g, red), f);
+    VNDF_REAL blue = vndf_impl_bsdf_mirrored_channel(n, vndf_impl_next_channel(n.gloss.excess.b, green), f);
     return vndf_impl_rgb(red, green, blue);
 #else
-    (void)n;
-    return vndf_impl_rgb(f, f, f);
+    VNDF_REAL all = vndf_impl_bsdf_mirrored_channel(n, VNDF_R(0.0), f);
+    return vndf_impl_rgb(all, all, all);
 #endif
 }
 
@@ -89,7 +93,9 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
     struct vndf_impl_facing facet = vndf_impl_facing_of(v.o, w, n.eta, bends);
     VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), rest = VNDF_R(1.0) - metal;
     VNDF_REAL f = vndf_fresnel_dielectric(facet.cos_o, n.eta);
-    VNDF_REAL passed = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f) * n.transmission;
+    VNDF_REAL passed =
+        vndf_impl_interface_lets_in(n, vndf_impl_interface_passes(n, vndf_impl_interface_most(n), f)) *
+        n.transmission;
     struct vndf_impl_odds odds = vndf_impl_odds_of(n, f);
     VNDF_REAL drawn = vndf_impl_bsdf_metal_drawn(v);
     VNDF_REAL share = s.crosses ? odds.refracted : drawn + odds.reflected;

@@ -19,6 +19,9 @@
 #if VNDF_CONDUCTOR && !VNDF_CHOSEN(VNDF_ENERGY, none)
 #include "bsdf_energy.h"
 #endif
+#if VNDF_IMPL_GLASS_ENERGY
+#include "bsdf_energy_glass.h"
+#endif
 #if VNDF_COAT
 #include "bsdf_coat.h"
 #endif
@@ -40,6 +43,9 @@ struct vndf_impl_interface {
 #endif
 #if !VNDF_IMPL_CHOICE_BY_NORMAL
     VNDF_REAL expected;
+#endif
+#if VNDF_IMPL_GLASS_ENERGY
+    VNDF_REAL returned, refracted;  // factors for what scatters between facets
 #endif
 };
 VNDF_FN VNDF_REAL vndf_impl_bsdf_index(struct vndf_bsdf b) {
@@ -92,6 +98,33 @@ VNDF_FN VNDF_REAL vndf_impl_interface_likely(struct vndf_impl_interface n) {
 }
 #endif
 
+// With what scattering between facets adds to the part that one of them reflects: of a body, to what that is by the index, no more
+// than there is, and nothing to what a colour adds; and to the part that gets in.
+#if VNDF_IMPL_GLASS_ENERGY
+VNDF_FN VNDF_REAL vndf_impl_interface_returns(struct vndf_impl_interface n, VNDF_REAL f, VNDF_REAL part) {
+#if VNDF_SPECULAR
+    VNDF_REAL own = vndf_impl_min(n.plain && f >= VNDF_R(1.0) ? f : n.gloss.strength * f, part);
+    own = n.body ? own : part;
+#else
+    VNDF_REAL own = f;
+#endif
+    return VNDF_FMA(own, n.returned - VNDF_R(1.0), part);
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_lets_in(struct vndf_impl_interface n, VNDF_REAL part) {
+    return n.refracted * part;
+}
+#else
+VNDF_FN VNDF_REAL vndf_impl_interface_returns(struct vndf_impl_interface n, VNDF_REAL f, VNDF_REAL part) {
+    (void)n;
+    (void)f;
+    return part;
+}
+VNDF_FN VNDF_REAL vndf_impl_interface_lets_in(struct vndf_impl_interface n, VNDF_REAL part) {
+    (void)n;
+    return part;
+}
+#endif
+
 VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct vndf_bsdf b, VNDF_REAL side) {
     struct vndf_impl_interface n;
     VNDF_REAL ior = vndf_impl_bsdf_index(b), metal = vndf_impl_bsdf_metal(b);
@@ -130,6 +163,23 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
     n.expected = vndf_impl_interface_reflects(
         n, vndf_impl_interface_likely(n), vndf_impl_expected_reflectance(o, vndf_impl_bsdf_alpha(b), n.eta));
 #endif
+#if VNDF_IMPL_GLASS_ENERGY
+    VNDF_REAL counts = n.transmission, weaker = VNDF_R(1.0);
+#if VNDF_SPECULAR
+    // The table is of an interface as its index makes it. A brighter one scatters less through its facets, and of a weaker one more
+    // gets in at once: by as much less is given back, so that there is never much more than falls on it.
+    VNDF_REAL bright = VNDF_R(1.0) - vndf_impl_interface_likely(n);
+    VNDF_REAL upright = vndf_fresnel_dielectric(VNDF_R(1.0), n.eta),
+              in = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), upright);
+    weaker = vndf_impl_share((VNDF_R(1.0) - upright) / (in > VNDF_R(0.0) ? in : VNDF_R(1.0)));
+    weaker = n.body && in > VNDF_R(0.0) ? weaker : VNDF_R(1.0);
+    counts *= n.body ? bright : VNDF_R(1.0);
+#endif
+    struct vndf_energy_factors factors =
+        vndf_impl_bsdf_glass_factors(o, vndf_impl_bsdf_alpha(b), n.eta, counts, n.body);
+    n.returned = factors.reflected;
+    n.refracted = factors.refracted * weaker;
+#endif
     return n;
 }
 
@@ -146,11 +196,16 @@ VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VN
     back = n.by_normal ? back : n.expected;
     in = n.by_normal ? in : VNDF_R(1.0) - n.expected;
 #endif
-    VNDF_REAL through = in * n.transmission;
-#if VNDF_LAMBERT
+    back = vndf_impl_interface_returns(n, n.by_normal ? f : back, back);
+    VNDF_REAL through = vndf_impl_interface_lets_in(n, in) * n.transmission;
+#if VNDF_LAMBERT || VNDF_IMPL_GLASS_ENERGY
     // Of what is neither reflected nor transmitted nobody asks here. Where all is, rounding is left alone.
-    VNDF_REAL sum = n.transmission < VNDF_R(1.0) ? back + through : VNDF_R(1.0),
-              rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+#if VNDF_IMPL_GLASS_ENERGY
+    VNDF_REAL sum = back + through;
+#else
+    VNDF_REAL sum = n.transmission < VNDF_R(1.0) ? back + through : VNDF_R(1.0);
+#endif
+    VNDF_REAL rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
     back *= rcp;
     through *= rcp;
 #endif

@@ -10,8 +10,9 @@
 //                  f0 and the tint at 82 degrees
 //   VNDF_MASKING   of reflections: correlated (default), separable. Of refractions always separable
 //   VNDF_TRANSPORT of refractions: radiance (default), 1 / eta^2 times importance
-//   VNDF_ENERGY    what scatters between facets, of the conductor (energy.h): none (default), it is lost; turquin, single
-//                  scattering raised by it; kulla_conty, a diffuse lobe of its own. A dielectric loses it with all
+//   VNDF_ENERGY    what scatters between facets: none (default), it is lost; turquin, single scattering raised by it, of the
+//                  conductor (energy.h) and of a dielectric that transmits (energy_glass.h); kulla_conty, a diffuse lobe of its own
+//                  for the conductor, while a dielectric loses it
 //
 // An effect is 1 (default) or 0. Without it the program lacks its arguments and its code, and the results for inputs that do
 // not call for it have the same bits:

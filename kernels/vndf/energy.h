@@ -12,25 +12,9 @@
 #define VNDF_ENERGY_H
 
 #include "effects.h"
+#include "energy_place.h"
 #include "fresnel.h"
 #include "impl/fresnel.h"
-
-VNDF_BEGIN
-
-// How a table is declared: two arrays in program scope. On CUDA and HIP they are there for device code alone.
-#ifndef VNDF_CONSTANT
-#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_CPP_VERSION__) || defined(__OPENCL_VERSION__)
-#define VNDF_CONSTANT __constant
-#elif VNDF_IMPL_GPU
-#define VNDF_CONSTANT static __device__ const
-#elif defined(__GNUC__)
-#define VNDF_CONSTANT static const __attribute__((__unused__))
-#else
-#define VNDF_CONSTANT static const
-#endif
-#endif
-
-VNDF_END
 
 #if defined(VNDF_ENERGY_TABLE)
 #include VNDF_ENERGY_TABLE
@@ -46,22 +30,6 @@ VNDF_END
 
 VNDF_BEGIN
 
-// Two neighbours in a table and the second one's share.
-struct vndf_impl_between {
-    int first;
-    VNDF_REAL share;
-};
-// Of a place in [0, 1] among `count` equidistant ones; NaN counts as 0.
-VNDF_FN struct vndf_impl_between vndf_impl_between_of(VNDF_REAL place, int count) {
-    struct vndf_impl_between b;
-    VNDF_REAL bounded = vndf_impl_share(place > VNDF_R(0.0) ? place : VNDF_R(0.0));
-    VNDF_REAL scaled = bounded * (VNDF_REAL)(count - 1);
-    b.first = (int)scaled;
-    b.first = b.first < count - 2 ? b.first : count - 2;
-    b.share = scaled - (VNDF_REAL)b.first;
-    return b;
-}
-
 // The place of a roughness: sqrt(alpha / 2), where small alphas are apart.
 VNDF_FN VNDF_REAL vndf_impl_energy_row(VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
@@ -69,15 +37,10 @@ VNDF_FN VNDF_REAL vndf_impl_energy_row(VNDF_REAL2 alpha) {
     return vndf_impl_share(VNDF_SQRT(VNDF_R(0.5) * effective));
 }
 
-// The place of a direction above the surface: sqrt(1 - tan(theta / 2)) with theta after the stretch, in which the loss is smooth
-// for every alpha: at grazing incidence it is steep in the cosine, at normal incidence linear in the angle.
+// The place of a direction, stretched by the roughness.
 VNDF_FN VNDF_REAL vndf_impl_energy_column(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x) * w.x, y = vndf_impl_alpha_y(alpha.y) * w.y;
-    VNDF_REAL l2 = VNDF_FMA(x, x, y * y), z = vndf_impl_max(w.z, VNDF_R(0.0));
-    VNDF_REAL l = VNDF_SQRT(l2), r = VNDF_SQRT(VNDF_FMA(z, z, l2));
-    // 1 - l / (r + z), without the difference.
-    VNDF_REAL both = (r + l) * (r + z);
-    return VNDF_SQRT(z * (r + l + z) / (both > VNDF_IMPL_LEAST ? both : VNDF_R(1.0)));
+    return vndf_impl_energy_place(VNDF_FMA(x, x, y * y), w.z);
 }
 
 // The loss 1 - E(w) of a conductor that reflects everything, by the table.
@@ -107,7 +70,7 @@ VNDF_FN VNDF_REAL vndf_energy_average_loss(VNDF_REAL2 alpha) {
     return place * place * VNDF_FMA(row.share, b - a, a);
 }
 
-#if VNDF_CHOSEN(VNDF_ENERGY, turquin)
+#if VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, turquin)
 
 // The weight of single scattering, raised. Not reciprocal.
 // Source: Turquin, Practical Multiple Scattering Compensation for Microfacet Models, 2019, Equation 16: 1 + F0 (1 - E) / E.
@@ -120,7 +83,7 @@ VNDF_FN struct vndf_rgb vndf_impl_turquin(struct vndf_rgb weight, struct vndf_rg
     return vndf_impl_rgb(red, green, blue);
 }
 
-#elif VNDF_CHOSEN(VNDF_ENERGY, kulla_conty)
+#elif VNDF_CONDUCTOR && VNDF_CHOSEN(VNDF_ENERGY, kulla_conty)
 
 // A diffuse lobe of one view direction: BSDF times cos(theta_i) is scale * loss(wi) times the density of the cosine law.
 // Source: Kulla & Conty, Revisiting Physically Based Shading at Imageworks, 2017: (1 - E(wo)) (1 - E(wi)) / (pi (1 - E_avg)) times

@@ -87,7 +87,7 @@ TEST_CASE("every command runs to its end with every option") {
         "energy --help",
         "energy --ndf beckmann --masking separable --output energy.h --cache kept --device \"$device\"",
         "energy --ndf beckmann --masking separable --output again.h --cache kept",
-        "energy --no-cache --output measured.h",
+        "energy --of conductor --no-cache --output measured.h",
         "render --help",
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
         "separable --energy kulla_conty --random philox "
@@ -208,6 +208,7 @@ TEST_CASE("energy refuses what there is not, and measures again what was damaged
     const std::vector<std::pair<std::string, std::string>> refusals = {
         {"energy --ndf phong", "--ndf"},
         {"energy --masking none", "--masking"},
+        {"energy --of wood", "--of"},
         {"energy --output nowhere/a.h", "nowhere/a.h"},
         {"energy --device nosuch --no-cache", "nosuch"}};
     for (const auto& [line, said] : refusals) {

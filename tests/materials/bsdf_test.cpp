@@ -72,6 +72,7 @@ std::vector<Choice> some_choices() {
             choice_of("beckmann", "plain", "conductor", "correlated", "radiance"),
             choice_of("beckmann", "plain", "none", "separable", "importance"),
             choice_of("ggx", "bounded", "conductor", "correlated", "radiance", "turquin"),
+            choice_of("ggx", "plain", "none", "separable", "importance", "turquin"),
             choice_of("ggx", "bounded", "schlick", "correlated", "radiance", "kulla_conty"),
             choice_of("beckmann", "plain", "f82", "separable", "radiance", "kulla_conty")};
 }
@@ -318,6 +319,19 @@ class Worst {
     Found found_;
 };
 
+// Directions and alphas with the index behind the surface over that in front, as the device rounds it.
+Columns with_index(Columns in, const std::vector<Row>& rows, runtime::Real real) {
+    in.emplace_back();
+    for (const Row& row : rows) {
+        const Parameters& m = row.material;
+        const double ior = std::clamp(m.ior, 1e-3, 1e3);
+        const bool inside = reference::dot(row.wo, m.ng) < 0 && m.transmission > 0 && m.metal < 1;
+        const double over = real == runtime::Real::f32 ? 1 / rounded(ior) : 1 / ior;
+        in.back().push_back(inside && !m.thin_walled ? over : ior);
+    }
+    return in;
+}
+
 // What the device finds in its tables for the directions of each row, turned to the side of wo.
 std::vector<reference::Losses<double>> losses_of(const Choice& choice, runtime::Real real,
                                                  const std::vector<Row>& rows) {
@@ -329,7 +343,7 @@ std::vector<reference::Losses<double>> losses_of(const Choice& choice, runtime::
             .try_emplace({choice.switches, real}, choice.switches, std::vector<runtime::Substitution>{}, 0,
                          real, "kernels/batch/energy.cl")
             .first->second;
-    const auto found = [&](bool of_wo) {
+    const auto seen = [&](bool of_wo) {
         Columns in(5);
         for (const Row& row : rows) {
             const Vector& w = of_wo ? row.wo : row.wi;
@@ -337,15 +351,20 @@ std::vector<reference::Losses<double>> losses_of(const Choice& choice, runtime::
             const double values[5] = {w.x, w.y, side * w.z, row.material.alpha_x, row.material.alpha_y};
             for (int c = 0; c < 5; ++c) in[c].push_back(values[c]);
         }
-        return program.run("vndf_batch_energy", in, 2);
+        return in;
     };
+    const auto found = [&](bool of_wo) { return program.run("vndf_batch_energy", seen(of_wo), 2); };
     const Columns o = found(true), i = found(false);
     for (std::size_t k = 0; k < rows.size(); ++k) losses[k] = {o[0][k], i[0][k], o[1][k]};
+    if (choice.model.energy != MaterialModel::Energy::turquin) return losses;
+    const Columns glass = program.run("vndf_batch_energy_glass", with_index(seen(true), rows, real), 2);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        losses[k].reflected = glass[0][k], losses[k].refracted = glass[1][k];
     return losses;
 }
 template <class R>
 reference::Losses<R> as(const reference::Losses<double>& losses) {
-    return {losses.o, losses.i, losses.average};
+    return {losses.o, losses.i, losses.average, losses.reflected, losses.refracted};
 }
 
 double registered(const std::string& function, runtime::Real real = runtime::Real::f32) {
@@ -641,9 +660,12 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
         const bool single = choice.model.energy == MaterialModel::Energy::none;
         // What the fits of a coat's albedo and of a rough surface under an interface may add.
         const double fitted = .004 * lobe.coat + (lobe.ior != 1 ? .003 * lobe.diffuse_roughness : 0);
-        // What the table of energy may add to a metal is not a dielectric's.
-        if (single || lobe.coat > 0 || lobe.ior != 1)
-            furnace.add(albedo - fitted - (single ? 0 : .03 * lobe.metal), row);
+        // What the tables of energy may add is not a dielectric's that keeps its loss.
+        const bool raised = choice.model.energy == MaterialModel::Energy::turquin;
+        const double tables = single ? 0 : .03 * (raised ? 1 : lobe.metal);
+        const bool glass = raised && lobe.metal == 0 && lobe.transmission == 1 && lobe.specular == 1;
+        if (single || lobe.coat > 0 || (lobe.ior != 1 && !glass))
+            furnace.add(albedo - fitted - tables, row);
         else
             kept.add(std::abs(albedo - 1), row);
         mean.add(std::max(std::abs(average - albedo) - 1e-3, 0.) / deviation, row);

@@ -85,6 +85,12 @@ def faults(switches, code):
                 needs["TINT"] = switches.get("DIELECTRIC", 1)
             if holds(code, word) != bool(on and needs.get(effect, 1)):
                 yield f"{effect}={on}: {word} {'stands' if holds(code, word) else 'is missing'}"
+    # What glass gets back, and a thin wall as a mirror.
+    glass = switches.get("DIELECTRIC", 1) and switches["ENERGY"] == "turquin"
+    mirrors = (conductor and switches["ENERGY"] != "none") or (glass and switches.get("THIN_WALLED", 1))
+    for word, needed in [("vndf_energy_glass", glass), ("vndf_energy_loss", mirrors)]:
+        if holds(code, word) != bool(needed):
+            yield f"ENERGY={switches['ENERGY']}: {word} {'stands' if holds(code, word) else 'is missing'}"
     for choice, values in VALUES.items():
         for value, words in values.items():
             for word in words:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "energy/measure.h"
 #include "error.h"
 #include "reference/energy.h"
+#include "reference/walk.h"
 #include "runtime/sources.h"
 #include "splitmix64.h"
 #include "support/bsdf_program.h"
@@ -38,7 +40,8 @@ struct Point {
 };
 
 double by_quadrature(const energy::Surface& s, const Point& p) {
-    const auto loss = s.ndf == "ggx" ? reference::directional_loss_ggx : reference::directional_loss_beckmann;
+    const auto loss = s.ndf == "ggx" ? reference::directional_loss<reference::Ggx>
+                                     : reference::directional_loss<reference::Beckmann>;
     return loss(s.masking == "separable", p.w, p.alpha_x, p.alpha_y);
 }
 
@@ -91,6 +94,105 @@ struct Claim {
 };
 const std::vector<Claim> claims{{1, 3.5e-3}, {2, .065}, {10, .13}};
 
+// --- Glass ---
+
+struct GlassPoint {
+    Point p;
+    double eta;
+};
+// Roughnesses to 1, indices from 1.02 to 3 on either side.
+std::vector<GlassPoint> glass_points(std::size_t count, double ratio) {
+    SplitMix64 draw(2);
+    std::vector<GlassPoint> all;
+    for (const Point& p : points(4 * count, ratio))
+        if (p.alpha_x <= 1 && p.alpha_y <= 1 && all.size() < count)
+            all.push_back({p, std::exp((draw.uniform() < .5 ? -1 : 1) *
+                                       (std::log(1.02) + draw.uniform() * std::log(3 / 1.02)))});
+    return all;
+}
+
+reference::GlassParts by_quadrature(const energy::Surface& s, const GlassPoint& g) {
+    const auto parts = s.ndf == "ggx" ? reference::directional_parts<reference::Ggx>
+                                      : reference::directional_parts<reference::Beckmann>;
+    return parts(s.masking == "separable", g.p.w, g.p.alpha_x, g.p.alpha_y, g.eta);
+}
+
+Columns glass_looked_up(const BsdfProgram& program, const std::vector<GlassPoint>& points) {
+    Columns in(6);
+    for (const GlassPoint& g : points) {
+        const double values[6] = {g.p.w.x, g.p.w.y, g.p.w.z, g.p.alpha_x, g.p.alpha_y, g.eta};
+        for (int c = 0; c < 6; ++c) in[c].push_back(values[c]);
+    }
+    return program.run("vndf_batch_energy_glass", in, 2);
+}
+
+// Light that glass of each point has with its factors, less what falls on it: the largest, and the root of the mean square.
+struct GlassError {
+    double largest = 0, mean = 0;
+};
+GlassError glass_error(const energy::Surface& s, const BsdfProgram& program, std::size_t count,
+                       double ratio) {
+    const std::vector<GlassPoint> all = glass_points(count, ratio);
+    const Columns factors = glass_looked_up(program, all);
+    GlassError error;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const reference::GlassParts parts = by_quadrature(s, all[i]);
+        const double lost = factors[0][i] * parts.reflected + factors[1][i] * parts.refracted - 1;
+        error.largest = std::max(error.largest, std::abs(lost));
+        error.mean += lost * lost / static_cast<double>(all.size());
+    }
+    error.mean = std::sqrt(error.mean);
+    return error;
+}
+
+// As energy_glass.h says.
+struct GlassClaim {
+    double ratio, largest, mean;
+};
+const std::vector<GlassClaim> glass_claims{{1, .08, .006}, {2, .2, .018}, {10, .35, .035}};
+
+// Of walks over a surface with heights, those that end above it.
+template <class N>
+double walked_back(const GlassPoint& g, int walks) {
+    SplitMix64 numbers(7);
+    const auto draw = [&] { return numbers.uniform(); };
+    reference::HeightWalk<N, decltype(draw)> walk(g.p.alpha_x, g.p.alpha_y, g.eta, draw);
+    int back = 0;
+    for (int i = 0; i < walks; ++i) back += walk(g.p.w).wi.z > 0;
+    return static_cast<double>(back) / walks;
+}
+
+// The numbers of an array that a header has, the first one with a size in brackets.
+std::vector<int> whole_numbers_of(const std::string& path) {
+    std::vector<int> numbers;
+    for (const runtime::SourceFile& file : runtime::embedded_sources())
+        if (file.path == path) {
+            std::istringstream text(std::string(file.text.substr(file.text.find("] = {") + 5)));
+            for (int x = 0; text >> x; text.ignore()) numbers.push_back(x);
+        }
+    return numbers;
+}
+
+// One place of the table in `step`.
+void expect_committed_glass(const energy::Surface& s, std::size_t step) {
+    const energy::GlassViews all = energy::glass_views();
+    energy::GlassViews some;
+    for (std::size_t i = 0; i < all.views.size(); i += step)
+        some.views.push_back(all.views[i]), some.etas.push_back(all.etas[i]);
+    const std::vector<int> committed =
+        whole_numbers_of(fmt::format("kernels/vndf/energy_glass_{}_{}.h", s.ndf, s.masking));
+    CAPTURE(s.ndf, s.masking);
+    REQUIRE(committed.size() == energy::GlassTable::numbers);
+    const auto measured = energy::glass_albedos(runtime::choose_device().device, s, some.views, some.etas);
+    std::size_t others = 0;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+        const std::vector<float> parts = energy::glass_parts_of(measured[k]);
+        for (std::size_t c = 0; c < 2; ++c)
+            others += committed[2 * step * k + c] != static_cast<int>(parts[c]);
+    }
+    CHECK(others == 0);
+}
+
 // All light on a white conductor against what it reflects: a mean of weights, over u and the choice of the lobe.
 double reflected(const BsdfProgram& program, const Point& p) {
     constexpr int side = 256;
@@ -124,7 +226,7 @@ TEST_CASE("mistakes in the look-up are noticed by quadrature") {
     const std::vector<runtime::Substitution> mistakes{
         {"kernels/vndf/energy.h", "return vndf_impl_share(VNDF_SQRT(VNDF_R(0.5) * effective));",
          "return vndf_impl_share(VNDF_R(0.5) * effective);", 1},
-        {"kernels/vndf/energy.h", "VNDF_REAL both = (r + l) * (r + z);",
+        {"kernels/vndf/energy_place.h", "VNDF_REAL both = (r + l) * (r + z);",
          "VNDF_REAL both = (r + l) * (r + l);", 1},
         {"kernels/vndf/energy.h", "return VNDF_FMA(row.share, high - low, low);", "return low;", 1},
         {"kernels/vndf/energy.h", "VNDF_FMA(column.share, d - c, c);", "VNDF_FMA(column.share, c - d, c);",
@@ -159,6 +261,78 @@ TEST_CASE("what the device measures is what quadrature finds") {
             worst = std::max(worst, std::abs(losses[i] - by_quadrature(s, all[i])));
         CAPTURE(s.ndf, s.masking);
         CHECK(worst < 1e-3);
+    }
+}
+
+TEST_CASE("quadrature finds that glass loses no light with the factors of the table") {
+    for (const energy::Surface& s : surfaces)
+        for (const GlassClaim& claim : glass_claims) {
+            CAPTURE(s.ndf, s.masking, claim.ratio);
+            const GlassError error = glass_error(s, table_of(s), 80, claim.ratio);
+            CHECK(error.largest <= claim.largest);
+            CHECK(error.mean <= 1.5 * claim.mean);
+        }
+}
+
+TEST_CASE("mistakes in the look-up of glass are noticed by quadrature") {
+    const char* file = "kernels/vndf/energy_glass.h";
+    const std::vector<runtime::Substitution> mistakes{
+        {file, "VNDF_SQRT(square) / vndf_impl_max(eta, VNDF_R(1.0))", "VNDF_SQRT(square)", 1},
+        {file, "(eta < VNDF_R(1.0) ? VNDF_ENERGY_GLASS_LAYERS : 0)",
+         "(eta > VNDF_R(1.0) ? VNDF_ENERGY_GLASS_LAYERS : 0)", 1},
+        {file, "vndf_impl_between_of(VNDF_SQRT(effective), VNDF_ENERGY_GLASS_ROWS)",
+         "vndf_impl_between_of(effective, VNDF_ENERGY_GLASS_ROWS)", 1},
+        {file, "l2 / (effective > VNDF_R(0.0) ? effective : VNDF_R(1.0))", "l2", 1},
+        {file, "int other = back > VNDF_R(0.0) ? cell.first + 1 : 0;",
+         "int other = back > VNDF_R(0.0) ? cell.first : 0;", 1},
+        {file, "VNDF_FMA(cell.column, b - a, a)", "a", 1},
+        {file, "VNDF_FMA(cell.layer, vndf_impl_glass_on_plane(cell, next) - low, low)", "low", 1},
+        {file, "VNDF_FMA(cell.row, vndf_impl_glass_on_line(cell, next) - low, low)", "low", 1}};
+    for (const runtime::Substitution& mistake : mistakes) {
+        CAPTURE(mistake.new_text);
+        const GlassError error = glass_error(surfaces[0], table_of(surfaces[0], {mistake}), 60, 1);
+        CHECK(error.mean > 1.5 * glass_claims[0].mean);
+    }
+    // Across the grooves a direction sees another roughness than along them.
+    const runtime::Substitution even{file, "VNDF_FMA(VNDF_R(0.5) * z * z, VNDF_FMA(ax, ax, ay * ay), l2)",
+                                     "VNDF_R(0.5) * VNDF_FMA(ax, ax, ay * ay)", 1};
+    CHECK(glass_error(surfaces[0], table_of(surfaces[0], {even}), 600, 10).largest > glass_claims[2].largest);
+}
+
+TEST_CASE("the committed tables of glass are what this device measures") {
+    // A group of work-items each.
+    for (const std::size_t k : {0, 3}) expect_committed_glass(surfaces[k], 83);
+}
+
+TEST_CASE("the committed tables of glass are what this device measures, all of them", "[.energy-full]") {
+    for (const energy::Surface& s : surfaces) expect_committed_glass(s, 1);
+}
+
+TEST_CASE("what the device measures of glass is what quadrature and walks with heights find") {
+    for (const energy::Surface& s : surfaces) {
+        std::vector<energy::View> views;
+        std::vector<double> etas;
+        const std::vector<GlassPoint> all = glass_points(24, 4);
+        for (const GlassPoint& g : all) {
+            views.push_back({g.p.w.x, g.p.w.y, g.p.w.z, g.p.alpha_x, g.p.alpha_y});
+            etas.push_back(g.eta);
+        }
+        constexpr int walks = 1 << 10;
+        const auto found = energy::glass_albedos(runtime::choose_device().device, s, views, etas, 64, walks);
+        double reflected = 0, refracted = 0, walked = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const reference::GlassParts parts = by_quadrature(s, all[i]);
+            reflected = std::max(reflected, std::abs(found[i].reflected - parts.reflected));
+            refracted = std::max(refracted, std::abs(found[i].refracted - parts.refracted));
+            const double share = s.ndf == "ggx" ? walked_back<reference::Ggx>(all[i], walks)
+                                                : walked_back<reference::Beckmann>(all[i], walks);
+            walked = std::max(walked, std::abs(found[i].walk - share));
+        }
+        CAPTURE(s.ndf, s.masking);
+        // What quadrature of Beckmann is off by at the edge of total reflection.
+        CHECK(reflected < (s.ndf == "ggx" ? 1.5e-3 : 4e-3));
+        CHECK(refracted < (s.ndf == "ggx" ? 1.5e-3 : 4e-3));
+        CHECK(walked < 5 * std::sqrt(.5 / walks));
     }
 }
 
@@ -201,6 +375,18 @@ TEST_CASE("a kept table is read back, and a damaged one is found out") {
     changed = text;
     changed.replace(text.find("table 1"), 7, "table 0");
     refused(surfaces[0], changed);
+}
+
+TEST_CASE("a kept table of glass is read back, and no other is taken for it") {
+    energy::GlassTable table{surfaces[0], std::vector<float>(energy::GlassTable::numbers, 9876)};
+    table.parts[7] = 12345;
+    const std::string text = energy::kept(table), header = energy::header(table);
+    CHECK(energy::read_kept_glass(surfaces[0], text, "file").parts == table.parts);
+    CHECK_THROWS_AS(energy::read_kept_glass(surfaces[1], text, "file"), InputError);
+    CHECK_THROWS_AS(energy::read_kept_glass(surfaces[0], text + "1\n", "file"), InputError);
+    CHECK_THROWS_AS(energy::read_kept(surfaces[0], text, "file"), InputError);
+    CHECK(header.find("unsigned short vndf_energy_glass_parts[10400] = {") != std::string::npos);
+    CHECK(header.find(" 12345,") != std::string::npos);
 }
 
 namespace {
@@ -301,10 +487,15 @@ Parts parts_of(const Columns& out) {
     return parts;
 }
 
-// How far both are from the walk's, at the worst of some directions; no model of energy gives anything back.
-Parts glass_gap(double alpha_x, double alpha_y, double eta, std::size_t count) {
-    static const BsdfProgram model("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance"),
-        walk("", {}, 0, runtime::Real::f32, "kernels/batch/walk.cl");
+// How far both are from the walk's, at the worst of some directions.
+Parts glass_gap(const char* energy, double alpha_x, double alpha_y, double eta, std::size_t count) {
+    static std::map<std::string, BsdfProgram> models;
+    static const BsdfProgram walk("", {}, 0, runtime::Real::f32, "kernels/batch/walk.cl");
+    const BsdfProgram& model =
+        models
+            .try_emplace(energy,
+                         fmt::format("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance ENERGY={}", energy))
+            .first->second;
     Parts worst;
     for (const double cosine : {.1, .3, .6, 1.})
         for (const double phi : {0., pi / 2}) {
@@ -325,24 +516,56 @@ Parts glass_gap(double alpha_x, double alpha_y, double eta, std::size_t count) {
 }  // namespace
 
 TEST_CASE("what rough glass loses beside the walk is what it is said to be") {
-    // Of the table of kernels/README.md.
-    const Parts smooth = glass_gap(.1, .1, 1.5, 1 << 16), rough = glass_gap(1, 1, 1.5, 1 << 16);
-    CHECK(std::abs(smooth.reflected - .026) < .006);
-    CHECK(std::abs(smooth.through - .054) < .006);
-    CHECK(std::abs(rough.reflected - .011) < .006);
-    CHECK(std::abs(rough.through - .570) < .006);
+    // Of the tables of kernels/README.md.
+    const auto expect = [](const char* energy, double alpha, double eta, double reflected, double through) {
+        const Parts gap = glass_gap(energy, alpha, alpha, eta, 1 << 16);
+        CAPTURE(energy, alpha, eta, gap.reflected, gap.through);
+        CHECK(std::abs(gap.reflected - reflected) < .006);
+        CHECK(std::abs(gap.through - through) < .006);
+    };
+    expect("none", .1, 1.5, .026, .054);
+    expect("none", 1, 1.5, .011, .570);
+    expect("turquin", .1, 1.5, 0, 0);
+    expect("turquin", 1, 1.5, 0, 0);
 }
 
-// By hand: the table of kernels/README.md.
+// What the table knows nothing of: a weaker interface and one with a colour.
+TEST_CASE("glass with any interface gives back little more than there is") {
+    const BsdfProgram program("CONDUCTOR=0 SAMPLING=plain TRANSPORT=importance ENERGY=turquin");
+    constexpr std::size_t count = 1 << 11;
+    for (const double eta : {1.1, 1.5, 2.5, 1 / 1.1, 1 / 1.5, 1 / 2.5})
+        for (const double alpha : {.3, 1.})
+            for (const double cosine : {.1, .5, 1.})
+                for (const auto& [specular, colour] :
+                     {std::pair{0., 1.}, {.5, 1.}, {1., 0.}, {1., 4.}, {.5, 30.}, {1., 30.}}) {
+                    Columns in = metal_rows({direction(cosine, .3), alpha, alpha}, count, false);
+                    const auto set = [&](const char* name, double x) {
+                        in[6 + material_parameter(name)].assign(count, x);
+                    };
+                    set("metal", 0), set("ior", eta), set("thin_walled", 0), set("specular", specular);
+                    for (const char* channel :
+                         {"specular_colour_r", "specular_colour_g", "specular_colour_b"})
+                        set(channel, colour);
+                    const Parts all = parts_of(program.sample(in));
+                    CAPTURE(eta, alpha, cosine, specular, colour, all.reflected, all.through);
+                    CHECK(all.reflected + all.through < 1.06);
+                }
+}
+
+// By hand: the tables of kernels/README.md.
 TEST_CASE("the gap of glass to the walk", "[.energy-gap]") {
-    fmt::print("| alpha | 1.33 | 1.5 | 2 | 1 / 1.5 |\n| --- | --- | --- | --- | --- |\n");
-    for (const auto& [x, y] : {std::pair{.1, .1}, {.3, .3}, {.5, .5}, {1., 1.}, {.4, .2}, {1., .25}}) {
-        fmt::print("| {}, {} |", x, y);
-        for (const double eta : {1.33, 1.5, 2., 1 / 1.5}) {
-            const Parts gap = glass_gap(x, y, eta, items_by_hand());
-            fmt::print(" {:.3f}, {:.3f} |", gap.reflected, gap.through);
+    for (const char* energy : {"none", "turquin"}) {
+        fmt::print("{}\n\n| alpha | 1.1 | 1.5 | 2.5 | 1 / 1.1 | 1 / 1.5 | 1 / 2.5 |\n", energy);
+        fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
+        for (const auto& [x, y] :
+             {std::pair{.1, .1}, {.3, .3}, {.5, .5}, {1., 1.}, {.4, .2}, {1., .25}, {1., .1}}) {
+            fmt::print("| {}, {} |", x, y);
+            for (const double eta : {1.1, 1.5, 2.5, 1 / 1.1, 1 / 1.5, 1 / 2.5}) {
+                const Parts gap = glass_gap(energy, x, y, eta, items_by_hand());
+                fmt::print(" {:.3f}, {:.3f} |", gap.reflected, gap.through);
+            }
+            fmt::print("\n");
         }
-        fmt::print("\n");
     }
 }
 
@@ -352,4 +575,12 @@ TEST_CASE("errors of the tables of energy", "[.energy-full]") {
         for (const Claim& claim : claims)
             fmt::print("{} {}, alphas within {} of each other: {:.2g}\n", s.ndf, s.masking, claim.ratio,
                        table_error(s, table_of(s), items_by_hand() >> 7, claim.ratio));
+}
+TEST_CASE("errors of the tables of glass", "[.energy-full]") {
+    for (const energy::Surface& s : surfaces)
+        for (const GlassClaim& claim : glass_claims) {
+            const GlassError error = glass_error(s, table_of(s), items_by_hand() >> 7, claim.ratio);
+            fmt::print("{} {}, alphas within {} of each other: {:.2g}, mean {:.2g}\n", s.ndf, s.masking,
+                       claim.ratio, error.largest, error.mean);
+        }
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "effects.h"
 #include "runtime/program.h"
 
@@ -67,7 +69,7 @@ class BsdfProgram {
     Columns run_as(const char* name, const Columns& in, std::size_t outputs) const {
         const std::size_t items = in.front().size(), bytes = runtime::whole_groups(items) * sizeof(T);
         Columns out;
-        program_.guarded(std::string("run ") + name, [&] {
+        program_.guarded(fmt::format("run {}", name), [&] {
             cl::Kernel kernel = program_.kernel(name);
             std::vector<cl::Buffer> buffers;
             for (std::size_t i = 0; i < in.size() + outputs; ++i) {

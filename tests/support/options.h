@@ -66,6 +66,7 @@ inline const std::map<std::string, Values>& values() {
         {"--sampler", {{"bounded", "plain", "conic", "ndf", "cosine"}, {"", "vndf", "Plain"}}},
         {"--ndf", {{"ggx", "beckmann"}, {"", "gtr"}}},
         {"--masking", {{"correlated", "separable"}, {"", "smith"}}},
+        {"energy --of", {{"conductor", "glass"}, {"", "wood"}}},
         {"--energy", {{"none", "turquin", "kulla_conty"}, {"", "kulla"}}},
         {"--cache", {{"a", "a/b"}, {""}}},
         {"--random", {{"sobol", "philox"}, {"", "halton"}}},
