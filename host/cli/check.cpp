@@ -11,6 +11,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
+#include "conformance/judge/answers.h"
 #include "conformance/judge/digest.h"
 #include "conformance/report/page.h"
 #include "conformance/runs/exhaustive.h"
@@ -27,7 +28,7 @@ struct Check {
     std::string only, json, junit, report;
     bool quick = false, all = false;
     std::size_t points = 0;
-    bool digest = false;
+    bool digest = false, answers = false;
     std::string on = "device";  // whose digest
     bool exhaustive = false;
     double minutes = 0;  // 0: to the end
@@ -35,7 +36,7 @@ struct Check {
     conformance::UserOptions user;  // of --kernel
 };
 
-// One hash a function, and nothing else on the standard output.
+// One hash a function, or its known answers, and nothing else on the standard output.
 void run_digest(const Check& options, Common& common) {
     const auto selected = selected_by(options.only);
     conformance::BitsOptions bits;
@@ -59,6 +60,10 @@ void run_digest(const Check& options, Common& common) {
         progress("building the program", 0);
         evaluator =
             std::make_unique<runtime::DeviceEvaluator>(device, bits.math, options.target.real(), program);
+    }
+    if (options.answers) {
+        progress.clear();
+        return put(conformance::format_answers(*evaluator, bits.math, selected));
     }
     const auto digests = conformance::digests(*evaluator, selected, bits);
     progress.clear();
@@ -308,6 +313,12 @@ void add_check(CLI::App& app, Common& common) {
             ->excludes(page)
             ->excludes(all)
             ->excludes(exhaustive);
+    command
+        ->add_flag("--answers", options->answers,
+                   fmt::format("in place of hashes {} inputs of each function and the results, in hex",
+                               conformance::answer_rows))
+        ->needs(digest)
+        ->excludes(quick);
     command->add_option("--on", options->on, "whose digests: device or host (the headers as C++)")
         ->needs(digest)
         ->check(CLI::IsMember({"device", "host"}))

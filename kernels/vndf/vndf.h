@@ -42,6 +42,8 @@
 #define VNDF_VERSION_MAJOR 0
 #define VNDF_VERSION_MINOR 1
 #define VNDF_VERSION_PATCH 0
+// Counts the versions in which a result of `strict` has other bits than in the one before, for whoever keeps results.
+#define VNDF_BITS_VERSION 1
 
 #include "config.h"
 #include "frame.h"

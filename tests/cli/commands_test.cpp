@@ -80,6 +80,7 @@ TEST_CASE("every command runs to its end with every option") {
         "1024 --domain front --alpha 0.2:0.5 --isotropic --options -DX",
         "check --kernel \"$judge/bsdf.cl\" --function my_value --as bsdf --pdf my_pdf --sample my_sample --quick "
         "--points 1024",
+        "check --only vndf_reflect --digest --answers",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
         "emit --help",
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
@@ -369,6 +370,7 @@ TEST_CASE("a command that cannot write to the standard output fails in one line"
         "check --help",
         "check --only vndf_reflect --quick --points 1024",
         "check --only vndf_reflect --quick --points 1024 --json -",
+        "check --only vndf_reflect --digest --answers",
         "check --only vndf_reflect --quick --digest --on host",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001",
         "policies --only vndf_reflect --quick"};
