@@ -351,10 +351,8 @@ void add_render(CLI::App& app, Common& common) {
                "sunlit:\n"
                "white with the day's sun; auto: day, but none where a file has lights of its own",
                {"auto", "day", "none", "white", "sunlit"});
-    CLI::Option* const environment = command
-                                         ->add_option("--env", r->scene.environment,
-                                                      "in its place, an image from all around: .exr or .hdr")
-                                         ->excludes(sky);
+    command->add_option("--env", r->scene.environment, "in its place, an image from all around: .exr or .hdr")
+        ->excludes(sky);
     add_number(*command, "--env-rotation", r->scene.rotation, -3600.0f, 3600.0f,
                "degrees by which it is turned, counterclockwise seen from above");
     add_device(*command, r->device);
