@@ -51,7 +51,9 @@ CLVNDF_PYTHON const char* clvndf_options(int math, int real, bool fma, bool corr
         const auto policy = static_cast<runtime::Math>(math);
         const auto type = static_cast<runtime::Real>(real);
         runtime::require_policy(policy, type);
-        return runtime::build_options(policy, type, fma, correct_divide_sqrt);
+        return runtime::build_options(
+            policy, type, fma,
+            correct_divide_sqrt ? runtime::Division::hardware : runtime::Division::software);
     });
 }
 

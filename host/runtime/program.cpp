@@ -4,9 +4,11 @@ namespace vndf::runtime {
 namespace {
 
 std::string all_options(const Device& device, Math math, Real real, const ProgramOptions& options) {
+    const Division division = !options.correct_divide_sqrt ? Division::loose
+                              : device.correct_divide_sqrt ? Division::hardware
+                                                           : Division::software;
     std::string text = options.build_options.find("-cl-std=") == std::string::npos ? "-cl-std=CL1.2 " : "";
-    text += runtime::build_options(math, real, device.fma,
-                                   device.correct_divide_sqrt && options.correct_divide_sqrt);
+    text += runtime::build_options(math, real, device.fma, division);
     if (options.mutant != 0) text += fmt::format(" -DVNDF_MUTANT={}", options.mutant);
     if (!options.build_options.empty()) text += ' ' + options.build_options;
     return text;

@@ -202,10 +202,11 @@ std::string assemble(std::string_view path, const Assembly& assembly, const std:
     return Assembler(assembly, files).assemble(std::string(path));
 }
 
-std::string build_options(Math math, Real real, bool fma, bool correct_divide_sqrt) {
-    return fmt::format("-DVNDF_REAL={} -DVNDF_MATH={}{}{}", to_string(real), to_string(math),
-                       correct_divide_sqrt ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
-                       fma ? "" : " -DVNDF_SOFTWARE_FMA=1");
+std::string build_options(Math math, Real real, bool fma, Division division) {
+    const bool software = division == Division::software && real == Real::f32 && math != Math::native;
+    return fmt::format("-DVNDF_REAL={} -DVNDF_MATH={}{}{}{}", to_string(real), to_string(math),
+                       division == Division::hardware ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
+                       fma ? "" : " -DVNDF_SOFTWARE_FMA=1", software ? " -DVNDF_SOFTWARE_DIVIDE=1" : "");
 }
 
 }  // namespace vndf::runtime

@@ -42,8 +42,11 @@ struct Assembly {
 std::string assemble(std::string_view path, const Assembly& assembly = {},
                      const std::vector<SourceFile>& files = embedded_sources());
 
-// The build options of a policy, for a device with a hardware fma or without, which rounds / and sqrt correctly on request
-// or does not. clvndf/sources.h has the same for users.
-std::string build_options(Math math, Real real, bool fma, bool correct_divide_sqrt);
+// How float quotients and roots are rounded: correctly by a device that does so on request; correctly by our own code, which
+// double and the policy native do not need; or as the device pleases, for builds that do without.
+enum class Division { hardware, software, loose };
+
+// The build options of a policy, for a device with a hardware fma or without. clvndf/sources.h has the same for users.
+std::string build_options(Math math, Real real, bool fma, Division division);
 
 }  // namespace vndf::runtime

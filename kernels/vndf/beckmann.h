@@ -73,7 +73,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_g1(struct vndf_beckmann_lobe lobe) {
     int above = lobe.wo_z > VNDF_R(0.0);
     VNDF_REAL sigma = vndf_impl_finite(above ? vndf_impl_beckmann_front_sigma(lobe) : VNDF_R(1.0)) +
                       vndf_impl_zero(lobe.wo_x, lobe.wo_y, lobe.wo_z);
-    return above ? vndf_impl_min(lobe.wo_z / sigma, VNDF_R(1.0)) : VNDF_R(0.0);
+    return above ? vndf_impl_min(VNDF_DIVIDE(lobe.wo_z, sigma), VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
 // Smith masking of one direction, for a normal that faces it.
@@ -96,7 +96,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_g2(struct vndf_beckmann_lobe lobe, VNDF_REA
     VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
     VNDF_REAL low = swap ? wi.z : lobe.wo_z, high = swap ? lobe.wo_z : wi.z;
     // The smaller cosine is divided first, so that nothing underflows.
-    VNDF_REAL g2 = high * (low * VNDF_R(1099511627776.0) / (above ? both : VNDF_R(1.0)));
+    VNDF_REAL g2 = high * VNDF_DIVIDE(low * VNDF_R(1099511627776.0), above ? both : VNDF_R(1.0));
     return above ? vndf_impl_share(g2) : VNDF_R(0.0);
 }
 
@@ -134,7 +134,7 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_weight(struct vndf_beckmann_lobe lobe, VNDF
     int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
     VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
     VNDF_REAL seen = wi.z * VNDF_R(1099511627776.0) * vndf_impl_beckmann_front_sigma(lobe);
-    VNDF_REAL weight = seen / (above ? both : VNDF_R(1.0));
+    VNDF_REAL weight = VNDF_DIVIDE(seen, above ? both : VNDF_R(1.0));
     return above ? vndf_impl_share(weight) : VNDF_R(0.0);
 }
 
@@ -155,7 +155,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_weight_lobe(struct vndf_beckmann_lobe lobe, VNDF
 
 // cosine: wo . wm.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_facing(struct vndf_beckmann_lobe lobe, VNDF_REAL3 wm, VNDF_REAL cosine) {
-    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_R(1.0) / (z * z), rcp = z * rise;
+    VNDF_REAL z = vndf_impl_beckmann_height(wm.z), rise = VNDF_DIVIDE(VNDF_R(1.0), z * z), rcp = z * rise;
     int faces = wm.z > VNDF_R(0.0) && cosine > VNDF_R(0.0);
     struct vndf_impl_power pdf = vndf_impl_beckmann_visible(lobe, wm.x * rcp, wm.y * rcp, z, cosine, 0, rise,
                                                             faces ? cosine : VNDF_R(0.0));
@@ -240,7 +240,7 @@ VNDF_FN VNDF_REAL2 vndf_impl_beckmann_eval_pdf(struct vndf_beckmann_lobe lobe, V
     int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
     VNDF_REAL both = vndf_impl_beckmann_both(lobe, vndf_impl_beckmann_other(lobe, wi));
     VNDF_REAL seen = VNDF_R(1099511627776.0) * vndf_impl_beckmann_front_sigma(lobe);
-    struct vndf_impl_power ratio = vndf_impl_split(above ? seen / both : VNDF_R(1.0));
+    struct vndf_impl_power ratio = vndf_impl_split(above ? VNDF_DIVIDE(seen, both) : VNDF_R(1.0));
     VNDF_REAL value =
         vndf_impl_finite(vndf_impl_times_power(pdf.part * ratio.part, pdf.exponent + ratio.exponent));
     return VNDF_MAKE2(above ? value : VNDF_R(0.0), lobe.wo_z + wi.z > VNDF_R(0.0) ? density : VNDF_R(0.0));
@@ -285,7 +285,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_pdf_wm_walter2007(VNDF_REAL3 wm, VNDF_REAL2 alph
 // Accuracy: 9 eps (1 + condition number); double 8.
 VNDF_FN VNDF_REAL vndf_beckmann_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL slope) {
     struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
-    VNDF_REAL pdf = vndf_impl_slope_gaussian(s, VNDF_1_SQRT_PI * s.y / s.slopes.area);
+    VNDF_REAL pdf = vndf_impl_slope_gaussian(s, VNDF_DIVIDE(VNDF_1_SQRT_PI * s.y, s.slopes.area));
     return s.visible > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
@@ -298,7 +298,7 @@ VNDF_FN VNDF_REAL vndf_beckmann_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL slope) 
     struct vndf_impl_seen_slope s = vndf_impl_beckmann_seen_slope(cos_theta, slope);
     struct vndf_impl_incidence_slopes i = s.slopes;
     struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_of(vndf_impl_abs(s.x));
-    VNDF_REAL rcp = VNDF_R(1.0) / i.area, half_y = VNDF_R(0.5) * s.y;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), i.area), half_y = VNDF_R(0.5) * s.y;
     // For x > 0 what is above; the factor may have either sign there.
     int right = i.front && s.x > VNDF_R(0.0);
     VNDF_REAL body = VNDF_FMA(half_y, f.erfcx, right ? -f.ierfcx : f.ierfcx) * rcp;

@@ -82,11 +82,14 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_visible_cosines(VNDF_REAL3 o, VNDF_REAL cos
     VNDF_REAL m2 = VNDF_FMA(-cos_theta_m, cos_theta_m, VNDF_R(1.0)), o2 = VNDF_FMA(-o.z, o.z, VNDF_R(1.0));
     VNDF_REAL gap = o2 < m2 ? VNDF_FMA(-cos_theta_m, cos_theta_m, o2) : VNDF_FMA(-o.z, o.z, m2);
     // Slopes beyond 2^31 (double: 2^255) have the density 0.
-    VNDF_REAL square = o.z < VNDF_R(0.0) ? gap / vndf_impl_max(o2, VNDF_EPSILON * VNDF_EPSILON) : m2;
-    VNDF_REAL slope = VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))) / z / lobe.alpha_x;
-    VNDF_REAL bounded = vndf_impl_min(slope, VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST);
+    VNDF_REAL square =
+        o.z < VNDF_R(0.0) ? VNDF_DIVIDE(gap, vndf_impl_max(o2, VNDF_EPSILON * VNDF_EPSILON)) : m2;
+    VNDF_REAL slope =
+        VNDF_DIVIDE(VNDF_DIVIDE(VNDF_SQRT(vndf_impl_max(square, VNDF_R(0.0))), z), lobe.alpha_x);
+    VNDF_REAL bounded = vndf_impl_min(slope, VNDF_DIVIDE(VNDF_R(0.25), VNDF_IMPL_ROOT_LEAST));
     struct vndf_impl_pair exponent = {bounded * bounded, VNDF_R(0.0)};
-    struct vndf_impl_power pdf = vndf_impl_beckmann_share(lobe, exponent, VNDF_R(1.0) / (z * z), weight);
+    struct vndf_impl_power pdf =
+        vndf_impl_beckmann_share(lobe, exponent, VNDF_DIVIDE(VNDF_R(1.0), z * z), weight);
     return vndf_impl_finite(vndf_impl_times_power(pdf.part, pdf.exponent));
 }
 

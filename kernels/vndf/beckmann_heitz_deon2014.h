@@ -37,7 +37,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL centre = left ? rest : mass_above;
     VNDF_REAL part =
         at_edge ? (shallow ? excess : mass) : (outer ? excess : vndf_impl_max(centre, VNDF_R(0.0)));
-    VNDF_REAL share = part / (at_edge ? edge : a);
+    VNDF_REAL share = VNDF_DIVIDE(part, at_edge ? edge : a);
     VNDF_REAL q = VNDF_FMA(VNDF_R(2.0), share, outer ? VNDF_R(0.0) : beyond);
     VNDF_REAL p = VNDF_FMA(VNDF_R(-2.0), share, outer ? VNDF_R(1.0) : within);
     VNDF_REAL ratio = shallow ? VNDF_R(1.0) + share : share;
@@ -53,7 +53,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL x = outer || left ? -size : size;
 
     // How far |x| is from a; where that is little, by the first terms of erf a - erf |x| = 2 share.
-    VNDF_REAL linear = VNDF_SQRT_PI * share / i.gaussian;
+    VNDF_REAL linear = VNDF_DIVIDE(VNDF_SQRT_PI * share, i.gaussian);
     int close = !outer && linear * (VNDF_R(1.0) + a) <
                               (VNDF_DOUBLE ? VNDF_R(1.9073486328125e-06) : VNDF_R(0.001953125));
     VNDF_REAL gap = close ? VNDF_FMA(-a * linear, linear, linear) : a - size, wide = a + size;
@@ -63,7 +63,7 @@ VNDF_FN struct vndf_impl_folded_slope vndf_impl_beckmann_fold(struct vndf_impl_i
     VNDF_REAL keep = outer || left ? wide : gap, swap = outer || left ? gap : wide;
     int mirror = !outer && first > keep;
     VNDF_REAL reach = mirror ? swap : keep;
-    VNDF_REAL rcp = VNDF_R(1.0) / reach;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), reach);
     VNDF_REAL low = (mirror ? first - keep : first) * rcp, high = (mirror ? second : keep - first) * rcp;
     fold.slope.x = mirror ? -x : x;
     fold.slope.y = reach;

@@ -15,7 +15,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_walter2007(VNDF_REAL2 alpha, 
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
     // log(1 - u1) with the rounding error of the difference.
     VNDF_REAL rest = VNDF_R(1.0) - u1;
-    VNDF_REAL logarithm = vndf_impl_log(rest) + ((VNDF_R(1.0) - rest) - u1) / rest;
+    VNDF_REAL logarithm = vndf_impl_log(rest) + VNDF_DIVIDE((VNDF_R(1.0) - rest) - u1, rest);
     VNDF_REAL radius = VNDF_SQRT(-logarithm);
     // y waits for x, which is finite: side by side they would be packed (impl/stretch.h).
     VNDF_REAL x = radius * vndf_impl_circle_cos(u2);

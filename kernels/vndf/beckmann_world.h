@@ -76,7 +76,8 @@ struct vndf_impl_view_about {
 };
 VNDF_FN struct vndf_impl_view_about vndf_impl_view_about_of(VNDF_REAL3 n, VNDF_REAL3 wo) {
     struct vndf_impl_vector c = vndf_impl_cross(n, wo);
-    VNDF_REAL sine = vndf_impl_length(c), rcp = VNDF_R(1.0) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    VNDF_REAL sine = vndf_impl_length(c),
+              rcp = VNDF_DIVIDE(VNDF_R(1.0), sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     struct vndf_impl_view_about v = {
         vndf_impl_upright(sine, vndf_impl_dot(n.x, n.y, n.z, wo.x, wo.y, wo.z), n, wo),
         {sine > VNDF_R(0.0) ? c.x * rcp : VNDF_R(1.0), c.y * rcp, c.z * rcp}};

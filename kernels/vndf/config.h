@@ -9,6 +9,8 @@
 //              native: native_* where OpenCL has one (float only; OpenCL only), never promised
 //   VNDF_SOFTWARE_FMA  0 (default); 1 for OpenCL devices that do not report CL_FP_FMA: libclc's emulated fma gives
 //              -0 for (-0) + 0, which costs `strict` the sign of a zero
+//   VNDF_SOFTWARE_DIVIDE  0 (default); 1 for OpenCL devices that do not report CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT: quotients
+//              and roots of float are made those of hardware that rounds correctly (impl/divide.h), and with them the bits
 //   VNDF_ALLOW_FAST_MATH  0 (default): in C and C++, compiler options that change results are errors; 1: they are not, and
 //              what holds is the promise of fast math below
 //   VNDF_FN    how functions are declared. Default: static, inlined always in OpenCL C, for __host__ and __device__ in CUDA and
@@ -29,7 +31,8 @@
 //     and -freciprocal-math;
 //   nvcc, device code: --use_fast_math, --ftz=true, --prec-div=false, --prec-sqrt=false, and --fmad=true, its default;
 //   linking with g++ -ffast-math or -Ofast: the program then flushes subnormal numbers, however this was compiled.
-// In OpenCL C build programs with -cl-fp32-correctly-rounded-divide-sqrt where the device offers it.
+// In OpenCL C build programs with -cl-fp32-correctly-rounded-divide-sqrt where the device offers it, else with
+// -DVNDF_SOFTWARE_DIVIDE=1.
 //
 // Fast math. -ffast-math with VNDF_ALLOW_FAST_MATH 1, and OpenCL's options that loosen (-cl-fast-relaxed-math,
 // -cl-unsafe-math-optimizations, -cl-finite-math-only, -cl-no-signed-zeros, -cl-mad-enable, -cl-denorms-are-zero,
@@ -56,6 +59,9 @@
 #endif
 #ifndef VNDF_SOFTWARE_FMA
 #define VNDF_SOFTWARE_FMA 0
+#endif
+#ifndef VNDF_SOFTWARE_DIVIDE
+#define VNDF_SOFTWARE_DIVIDE 0
 #endif
 #ifndef VNDF_ALLOW_FAST_MATH
 #define VNDF_ALLOW_FAST_MATH 0
@@ -92,6 +98,12 @@
 #error "clvndf: unknown VNDF_SOFTWARE_FMA; 0 and 1 are allowed"
 #undef VNDF_SOFTWARE_FMA
 #define VNDF_SOFTWARE_FMA 0
+#endif
+#if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_SOFTWARE_DIVIDE) >= 1
+#else
+#error "clvndf: unknown VNDF_SOFTWARE_DIVIDE; 0 and 1 are allowed"
+#undef VNDF_SOFTWARE_DIVIDE
+#define VNDF_SOFTWARE_DIVIDE 0
 #endif
 #if VNDF_CAT(VNDF_SWITCH_IS_, VNDF_ALLOW_FAST_MATH) >= 1
 #else

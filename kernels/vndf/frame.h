@@ -17,7 +17,7 @@ VNDF_BEGIN
 // return: unit vector across n, both to 6 eps; the zero vector for an n beyond the range of numbers.
 // Accuracy: 3 eps (1 + condition number); double 5.5.
 VNDF_FN VNDF_REAL3 vndf_tangent(VNDF_REAL3 n) {
-    VNDF_REAL share = n.x / (VNDF_R(1.0) + vndf_impl_abs(n.z));
+    VNDF_REAL share = VNDF_DIVIDE(n.x, VNDF_R(1.0) + vndf_impl_abs(n.z));
     return vndf_impl_bounded_vector(VNDF_FMA(-n.x, share, VNDF_R(1.0)), -n.y * share,
                                     n.z < VNDF_R(0.0) ? n.x : -n.x, n, n);
 }
@@ -30,7 +30,8 @@ VNDF_FN VNDF_REAL3 vndf_tangent(VNDF_REAL3 n) {
 // Accuracy: 3.5 eps (1 + condition number); double 3.5.
 VNDF_FN VNDF_REAL3 vndf_tangent_along(VNDF_REAL3 n, VNDF_REAL3 w) {
     struct vndf_impl_vector c = vndf_impl_cross(n, w);
-    VNDF_REAL length = vndf_impl_length(c), rcp = VNDF_R(1.0) / (length > VNDF_R(0.0) ? length : VNDF_R(1.0));
+    VNDF_REAL length = vndf_impl_length(c),
+              rcp = VNDF_DIVIDE(VNDF_R(1.0), length > VNDF_R(0.0) ? length : VNDF_R(1.0));
     VNDF_REAL3 e = VNDF_MAKE3(c.x * rcp, c.y * rcp, c.z * rcp), any = vndf_tangent(n);
     VNDF_REAL x = VNDF_FMA(e.y, n.z, -e.z * n.y), y = VNDF_FMA(e.z, n.x, -e.x * n.z),
               z = VNDF_FMA(e.x, n.y, -e.y * n.x);
@@ -48,8 +49,9 @@ VNDF_FN VNDF_REAL3 vndf_tangent_along(VNDF_REAL3 n, VNDF_REAL3 w) {
 //     The length of (x, y), the sine of the angle to n, to 10 eps of itself.
 VNDF_FN VNDF_REAL3 vndf_to_local(VNDF_REAL3 w, VNDF_REAL3 n, VNDF_REAL3 t) {
     struct vndf_impl_vector b = vndf_impl_cross(n, t), c = vndf_impl_cross(n, w);
+    // No fma is negated: g++ 12 makes one instruction of both on Arm and RISC-V, which gives 0 for -0.
     VNDF_REAL x = VNDF_FMA(b.x, c.x, VNDF_FMA(b.y, c.y, b.z * c.z)),
-              y = -VNDF_FMA(t.x, c.x, VNDF_FMA(t.y, c.y, t.z * c.z));
+              y = VNDF_FMA(-t.x, c.x, VNDF_FMA(-t.y, c.y, -t.z * c.z));
     return vndf_impl_bounded_vector(x, y, vndf_impl_dot(n.x, n.y, n.z, w.x, w.y, w.z), n, w);
 }
 

@@ -26,17 +26,17 @@ VNDF_FN VNDF_REAL vndf_fresnel_conductor(VNDF_REAL cos_theta, VNDF_REAL eta, VND
     VNDF_REAL difference = VNDF_FMA(c, c, contrast) - k2, size = vndf_impl_abs(difference);
     VNDF_REAL sum = VNDF_SQRT(VNDF_FMA(difference, difference, VNDF_R(4.0) * product * product));
     VNDF_REAL larger = VNDF_SQRT(VNDF_R(0.5) * (sum + size));
-    VNDF_REAL smaller = product / (larger > VNDF_R(0.0) ? larger : VNDF_R(1.0));
+    VNDF_REAL smaller = VNDF_DIVIDE(product, larger > VNDF_R(0.0) ? larger : VNDF_R(1.0));
     int sees_through = difference > VNDF_R(0.0);
     VNDF_REAL a = sees_through ? larger : smaller, b = sees_through ? smaller : larger, b2 = b * b;
     // a - c = (a^2 - c^2) / (a + c). At grazing incidence on a = 0 both are 0.
     VNDF_REAL together = a + c,
-              apart = (contrast - k2 + b2) / (together > VNDF_R(0.0) ? together : VNDF_R(1.0));
-    VNDF_REAL rs = VNDF_FMA(apart, apart, b2) / VNDF_FMA(together, together, b2);
+              apart = VNDF_DIVIDE(contrast - k2 + b2, together > VNDF_R(0.0) ? together : VNDF_R(1.0));
+    VNDF_REAL rs = VNDF_DIVIDE(VNDF_FMA(apart, apart, b2), VNDF_FMA(together, together, b2));
     VNDF_REAL ac = a * c, bc = b * c, bc2 = bc * bc, less = ac - s, more = ac + s;
     VNDF_REAL whole = VNDF_FMA(more, more, bc2);
     // Both are 0 at normal incidence on a mirror without a and b alone, where Rp = Rs.
-    VNDF_REAL ratio = VNDF_FMA(less, less, bc2) / (whole > VNDF_R(0.0) ? whole : VNDF_R(1.0));
+    VNDF_REAL ratio = VNDF_DIVIDE(VNDF_FMA(less, less, bc2), whole > VNDF_R(0.0) ? whole : VNDF_R(1.0));
     return vndf_impl_share(VNDF_R(0.5) * VNDF_FMA(rs, ratio, rs));
 }
 

@@ -33,9 +33,9 @@ VNDF_FN VNDF_REAL vndf_fresnel_dielectric(VNDF_REAL cos_theta, VNDF_REAL eta) {
     VNDF_REAL g = VNDF_SQRT(passes ? n.square : VNDF_R(0.0)), sum = n.c + g;
     VNDF_REAL s = (VNDF_R(1.0) - n.c) * (VNDF_R(1.0) + n.c), cg = n.c * g;
     // For eta = 1 at grazing incidence the sum is 0, and so is what it divides.
-    VNDF_REAL sum2 = sum * sum, rs = n.contrast / (sum2 > VNDF_R(0.0) ? sum2 : VNDF_R(1.0));
+    VNDF_REAL sum2 = sum * sum, rs = VNDF_DIVIDE(n.contrast, sum2 > VNDF_R(0.0) ? sum2 : VNDF_R(1.0));
     // c g + s is not 0: cos theta_t = 0 at normal incidence would need eta = 0.
-    VNDF_REAL ratio = (cg - s) / (cg + s), rs2 = rs * rs;
+    VNDF_REAL ratio = VNDF_DIVIDE(cg - s, cg + s), rs2 = rs * rs;
     return passes ? vndf_impl_share(VNDF_R(0.5) * VNDF_FMA(rs2 * ratio, ratio, rs2))
                   : (n.contrast < VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0));
 }
@@ -48,7 +48,7 @@ VNDF_FN VNDF_REAL vndf_fresnel_dielectric(VNDF_REAL cos_theta, VNDF_REAL eta) {
 VNDF_FN VNDF_REAL vndf_fresnel_cos_theta_t(VNDF_REAL cos_theta, VNDF_REAL eta) {
     struct vndf_impl_snell n = vndf_impl_snell_of(cos_theta, eta);
     VNDF_REAL root = VNDF_SQRT(n.square > VNDF_R(0.0) ? n.square : VNDF_R(0.0));
-    return vndf_impl_share(root / n.eta);
+    return vndf_impl_share(VNDF_DIVIDE(root, n.eta));
 }
 
 VNDF_END

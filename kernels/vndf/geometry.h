@@ -36,7 +36,7 @@ VNDF_FN VNDF_REAL3 vndf_refract(VNDF_REAL3 wo, VNDF_REAL3 wm, VNDF_REAL eta) {
     VNDF_REAL c = vndf_impl_dot(wo.x, wo.y, wo.z, wm.x, wm.y, wm.z);
     // Below 2^-64 (double: 2^-512) the contrast would be no number, and every ray is reflected.
     int thick = eta > VNDF_IMPL_ROOT_LEAST;
-    VNDF_REAL rcp_eta = VNDF_R(1.0) / (thick ? eta : VNDF_R(1.0));
+    VNDF_REAL rcp_eta = VNDF_DIVIDE(VNDF_R(1.0), thick ? eta : VNDF_R(1.0));
     // A dot product of rounded unit vectors can exceed 1.
     VNDF_REAL c1 = vndf_impl_min(c, VNDF_R(1.0));
     VNDF_REAL sin2 = VNDF_FMA(-c1, c1, VNDF_R(1.0));
@@ -87,7 +87,7 @@ VNDF_FN VNDF_REAL vndf_jacobian_refract(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL 
     struct vndf_impl_pair dot = vndf_impl_dot_pair(wi.x, wi.y, wi.z, hx, hy, hz);
     VNDF_REAL low = VNDF_FMA(wi.x, x.tail, VNDF_FMA(wi.y, y.tail, wi.z * z.tail));
     VNDF_REAL wi_h = vndf_impl_abs(dot.head + VNDF_FMA(low, scale, dot.tail));
-    VNDF_REAL rcp = VNDF_R(1.0) / (largest > VNDF_R(0.0) ? h : VNDF_R(1.0)),
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), largest > VNDF_R(0.0) ? h : VNDF_R(1.0)),
               cosine = vndf_impl_max(wi_h * rcp, VNDF_EPSILON * VNDF_EPSILON);
     VNDF_REAL ratio = eta * scale * rcp;
     VNDF_REAL jacobian = vndf_impl_bounded_product(ratio * cosine, ratio);

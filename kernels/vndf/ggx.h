@@ -25,7 +25,7 @@ VNDF_BEGIN
 VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, alpha_x, alpha_y);
-    VNDF_REAL d = VNDF_1_PI / ((q * alpha_x) * (q * alpha_y));
+    VNDF_REAL d = VNDF_DIVIDE(VNDF_1_PI, (q * alpha_x) * (q * alpha_y));
     return wm.z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
 }
 
@@ -38,13 +38,13 @@ VNDF_FN VNDF_REAL vndf_ggx_ndf(VNDF_REAL3 wm, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_ggx_p22(VNDF_REAL2 slope, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     // Beyond 2^58 alpha (double: 2^506 alpha) nothing of the density is left.
-    VNDF_REAL limit = VNDF_R(0.015625) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL limit = VNDF_DIVIDE(VNDF_R(0.015625), VNDF_IMPL_ROOT_LEAST);
     VNDF_REAL x = vndf_impl_min(vndf_impl_abs(slope.x), alpha_x * limit),
               y = vndf_impl_min(vndf_impl_abs(slope.y), alpha_y * limit);
     VNDF_REAL q = vndf_impl_ggx_q(x, y, VNDF_R(1.0), alpha_x, alpha_y);
     VNDF_REAL qx = q * alpha_x, qy = q * alpha_y;
     int nothing = vndf_impl_beyond(vndf_impl_min(qx, qy), vndf_impl_max(qx, qy));
-    return nothing ? VNDF_R(0.0) : VNDF_1_PI / (qx * qy);
+    return nothing ? VNDF_R(0.0) : VNDF_DIVIDE(VNDF_1_PI, qx * qy);
 }
 
 // Smith's Lambda.
@@ -57,7 +57,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
     VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
     struct vndf_impl_view v = vndf_impl_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     VNDF_REAL z = vndf_impl_abs(w.z);
-    VNDF_REAL pole = (VNDF_R(0.5) * v.l / (v.r + z)) * vndf_impl_bounded_quotient(v.l, z);
+    VNDF_REAL pole = VNDF_DIVIDE(VNDF_R(0.5) * v.l, v.r + z) * vndf_impl_bounded_quotient(v.l, z);
     VNDF_REAL upper = vndf_impl_finite(z > VNDF_R(0.0) ? pole : VNDF_REAL_MAX);
     return w.z < VNDF_R(0.0) ? -VNDF_R(1.0) - upper : upper;
 }
@@ -66,7 +66,7 @@ VNDF_FN VNDF_REAL vndf_ggx_lambda(VNDF_REAL3 w, VNDF_REAL2 alpha) {
 VNDF_FN VNDF_REAL vndf_impl_ggx_sigma(struct vndf_ggx_lobe lobe) {
     VNDF_REAL height = vndf_impl_min(lobe.axis.height, VNDF_REAL_MAX),
               weight = vndf_impl_min(lobe.axis.weight, VNDF_REAL_MAX);
-    return height * VNDF_R(3.7252902984619140625e-09) / weight;
+    return VNDF_DIVIDE(height * VNDF_R(3.7252902984619140625e-09), weight);
 }
 
 // The projected area of the microsurface seen from w.
@@ -91,7 +91,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_g1(struct vndf_ggx_lobe lobe) {
     VNDF_REAL z = vndf_impl_min(lobe.axis.z, VNDF_R(0.25) * VNDF_REAL_MAX),
               height = vndf_impl_min(lobe.axis.height, VNDF_REAL_MAX);
     int above = lobe.wo_z > VNDF_R(0.0);
-    VNDF_REAL g1 = VNDF_R(2.0) * z / (above ? height : VNDF_R(1.0));
+    VNDF_REAL g1 = VNDF_DIVIDE(VNDF_R(2.0) * z, above ? height : VNDF_R(1.0));
     return above ? vndf_impl_min(g1, VNDF_R(1.0)) : VNDF_R(0.0);
 }
 
@@ -129,7 +129,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_g2(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     VNDF_REAL both = vndf_impl_ggx_both(lobe, wi);
     int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0), swap = lobe.wo_z > wi.z;
     VNDF_REAL low = swap ? wi.z : lobe.wo_z, high = swap ? lobe.wo_z : wi.z;
-    VNDF_REAL g2 = high * (low * VNDF_R(268435456.0) / (above ? both : VNDF_R(1.0)));
+    VNDF_REAL g2 = high * VNDF_DIVIDE(low * VNDF_R(268435456.0), above ? both : VNDF_R(1.0));
     return above ? vndf_impl_share(g2) : VNDF_R(0.0);
 }
 
@@ -165,7 +165,7 @@ VNDF_FN VNDF_REAL vndf_ggx_g2_separable(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2
 VNDF_FN VNDF_REAL vndf_impl_ggx_weight(struct vndf_ggx_lobe lobe, VNDF_REAL3 wi) {
     VNDF_REAL both = VNDF_FMA(lobe.axis.t, wi.z, vndf_impl_ggx_stretched(lobe, wi) * lobe.wo_z);
     int above = lobe.wo_z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
-    VNDF_REAL weight = wi.z * lobe.axis.height / (above ? both : VNDF_R(1.0));
+    VNDF_REAL weight = VNDF_DIVIDE(wi.z * lobe.axis.height, above ? both : VNDF_R(1.0));
     return above ? vndf_impl_share(weight) : VNDF_R(0.0);
 }
 
@@ -190,7 +190,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_visible(struct vndf_ggx_lobe lobe, VNDF_REAL3 wm
     VNDF_REAL q = vndf_impl_ggx_q(wm.x, wm.y, wm.z, lobe.alpha_x, lobe.alpha_y);
     VNDF_REAL twice_sigma = vndf_impl_lobe_twice_sigma(lobe);
     VNDF_REAL area =
-        (VNDF_2_PI / ((q * lobe.alpha_x) * (q * lobe.alpha_y))) * vndf_impl_max(cos_om, VNDF_R(0.0));
+        VNDF_DIVIDE(VNDF_2_PI, (q * lobe.alpha_x) * (q * lobe.alpha_y)) * vndf_impl_max(cos_om, VNDF_R(0.0));
     VNDF_REAL pdf = vndf_impl_bounded_quotient(area, twice_sigma);
     int visible = wm.z > VNDF_R(0.0) && cos_om > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);
     return visible ? vndf_impl_finite(pdf) : VNDF_R(0.0);
@@ -257,7 +257,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_half_ndf(struct vndf_ggx_lobe lobe, VNDF_REAL3 w
     VNDF_REAL low = VNDF_FMA(px, VNDF_FMA(ky, x, -px), py * VNDF_FMA(kx, y, -py));
     VNDF_REAL q = VNDF_FMA(px, px, VNDF_FMA(py, py, VNDF_FMA(pz, pz, low + low)));
     int above = z > VNDF_R(0.0) && q > VNDF_R(0.0);
-    VNDF_REAL s = up * up * a * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)) / (above ? q : VNDF_R(1.0));
+    VNDF_REAL s = VNDF_DIVIDE(up * up * a * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), above ? q : VNDF_R(1.0));
     return above ? VNDF_1_PI * s * (a * s) : VNDF_R(0.0);
 }
 
@@ -351,7 +351,8 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_pdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     int beyond = vndf_impl_beyond(vndf_impl_abs(x), vndf_impl_abs(x));
     VNDF_REAL slope = beyond ? VNDF_R(0.0) : x, square = VNDF_FMA(slope, slope, VNDF_R(1.0));
     VNDF_REAL p = VNDF_R(1.0) + cos_theta, visible = vndf_impl_visible_cosine(cos_theta, slope);
-    VNDF_REAL pdf = (visible / VNDF_SQRT(square)) / square / (p > VNDF_R(0.0) ? p : VNDF_R(1.0));
+    VNDF_REAL pdf = VNDF_DIVIDE(VNDF_DIVIDE(VNDF_DIVIDE(visible, VNDF_SQRT(square)), square),
+                                p > VNDF_R(0.0) ? p : VNDF_R(1.0));
     return visible > VNDF_R(0.0) && p > VNDF_R(0.0) && !beyond ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }
 
@@ -366,8 +367,9 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf(VNDF_REAL cos_theta, VNDF_REAL x) {
     // Where the square of x would overflow, its root is |x|.
     VNDF_REAL size = vndf_impl_min(vndf_impl_abs(x), VNDF_R(0.25) * VNDF_REAL_MAX);
     VNDF_REAL root = vndf_impl_beyond(size, size) ? size : VNDF_SQRT(VNDF_FMA(size, size, VNDF_R(1.0)));
-    VNDF_REAL sum = root + size, weight = x < VNDF_R(0.0) ? VNDF_R(1.0) / sum : sum;
-    VNDF_REAL cdf = (VNDF_FMA(cos_theta, weight, sine) / root) / (p > VNDF_R(0.0) ? p : VNDF_R(1.0));
+    VNDF_REAL sum = root + size, weight = x < VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), sum) : sum;
+    VNDF_REAL cdf =
+        VNDF_DIVIDE(VNDF_DIVIDE(VNDF_FMA(cos_theta, weight, sine), root), p > VNDF_R(0.0) ? p : VNDF_R(1.0));
     int inside = vndf_impl_visible_cosine(cos_theta, x) > VNDF_R(0.0) && cdf < VNDF_R(1.0);
     return inside ? vndf_impl_max(cdf, VNDF_R(0.0)) : VNDF_R(1.0);
 }
@@ -383,7 +385,7 @@ VNDF_FN VNDF_REAL vndf_ggx_slope_cdf_inverse(VNDF_REAL cos_theta, VNDF_REAL u1) 
     VNDF_REAL p = VNDF_R(1.0) + cos_theta, q = VNDF_R(1.0) - cos_theta;
     struct vndf_impl_slope slope = vndf_impl_ggx_slope(
         cos_theta, sine, p, q, VNDF_SQRT(p > VNDF_R(0.0) ? p : VNDF_R(0.0)), vndf_impl_u(u1));
-    VNDF_REAL x = slope.sin_psi / (slope.cos_psi > VNDF_R(0.0) ? slope.cos_psi : VNDF_R(1.0));
+    VNDF_REAL x = VNDF_DIVIDE(slope.sin_psi, slope.cos_psi > VNDF_R(0.0) ? slope.cos_psi : VNDF_R(1.0));
     return p > VNDF_R(0.0) && x > -VNDF_REAL_MAX ? vndf_impl_finite(x) : -VNDF_REAL_MAX;
 }
 

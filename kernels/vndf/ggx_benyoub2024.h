@@ -27,7 +27,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     // The azimuth's unit vector, turned; it is wo's where wo has none.
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y);
     VNDF_REAL cosine = vndf_impl_circle_cos(u1), sine = vndf_impl_circle_sin(u1);
-    VNDF_REAL along_w = VNDF_FMA(n.x, cosine, n.y * sine), w = along_w / (VNDF_R(1.0) + vndf_impl_abs(n.z));
+    VNDF_REAL along_w = VNDF_FMA(n.x, cosine, n.y * sine),
+              w = VNDF_DIVIDE(along_w, VNDF_R(1.0) + vndf_impl_abs(n.z));
     VNDF_REAL ex = VNDF_FMA(w, n.x, -cosine), ey = VNDF_FMA(w, n.y, -sine),
               ez = n.z < VNDF_R(0.0) ? -along_w : along_w;
     VNDF_REAL least = k2 > VNDF_R(0.0) ? VNDF_R(0.0) : vndf_impl_no_length(v.z);
@@ -49,7 +50,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     hz = VNDF_FMA(-lean, n.z, hz);
     // What is left across n is mended as in vndf_impl_cap_sum, twice: of a sum that nearly vanishes the first step leaves its
     // own rounding, enough to turn it away from wo.
-    VNDF_REAL dx = ex - vx, dy = ey - vy, dz = ez - vz, scale = VNDF_R(1.0) / (square + l2);
+    VNDF_REAL dx = ex - vx, dy = ey - vy, dz = ez - vz, scale = VNDF_DIVIDE(VNDF_R(1.0), square + l2);
     VNDF_REAL error = VNDF_FMA(dx, hx, VNDF_FMA(dy, hy, VNDF_FMA(dz, hz, -excess))) * scale;
     hx = VNDF_FMA(-error, ex, hx);
     hy = VNDF_FMA(-error, ey, hy);
@@ -61,14 +62,15 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_benyoub2024(VNDF_REAL3 wo, VNDF_RE
     VNDF_REAL gx = VNDF_FMA(z, n.x, alpha * hx), gy = VNDF_FMA(z, n.y, alpha * hy),
               gz = VNDF_FMA(z, n.z, alpha * hz);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, gz * gz));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
     struct vndf_impl_sample m;
     m.x = defined ? gx * rcp : n.x;
     m.y = defined ? gy * rcp : n.y;
     m.z = defined ? gz * rcp : n.z;
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, VNDF_FMA(hz, hz, z * z))), ratio = length2 / h2;
-    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.height * (alpha * alpha));
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, VNDF_FMA(hz, hz, z * z))),
+              ratio = VNDF_DIVIDE(length2, h2);
+    VNDF_REAL pdf = VNDF_DIVIDE(VNDF_1_PI * (ratio * length), v.height * (alpha * alpha));
     m.pdf = defined && v.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }

@@ -16,14 +16,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_dupuy2023(struct vndf_ggx_lobe v, 
     struct vndf_impl_vector h = vndf_impl_cap_half(v, u);
     VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     // Only a huge wo has none.
     int defined = length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX;
     m.x = defined ? gx * rcp : VNDF_R(0.0);
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? h.z * rcp : VNDF_R(1.0);
-    VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    VNDF_REAL pdf = VNDF_1_PI * (ratio * length) / (v.axis.height * (v.alpha_x * v.alpha_y));
+    VNDF_REAL ratio = VNDF_DIVIDE(length2, VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z)));
+    VNDF_REAL pdf = VNDF_DIVIDE(VNDF_1_PI * (ratio * length), v.axis.height * (v.alpha_x * v.alpha_y));
     // At wo = -z, where nothing is visible, the height is 0, and the normal on the horizon.
     m.pdf = defined && v.axis.height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;

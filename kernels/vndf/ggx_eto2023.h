@@ -26,7 +26,7 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_bound(struct vndf_ggx_lobe v) {
     VNDF_REAL a = vndf_impl_min(vndf_impl_min(v.alpha_x, v.alpha_y), VNDF_R(1.0)), a2 = a * a;
     VNDF_REAL z2 = v.wo_z * v.wo_z, sine2 = VNDF_FMA(v.wo_x, v.wo_x, v.wo_y * v.wo_y);
     VNDF_REAL s2 = VNDF_FMA(VNDF_R(2.0), sine2 + VNDF_SQRT(sine2 * (sine2 + z2)), z2);
-    VNDF_REAL gap = a2 * (s2 + z2) / VNDF_FMA(a2, z2, s2);
+    VNDF_REAL gap = VNDF_DIVIDE(a2 * (s2 + z2), VNDF_FMA(a2, z2, s2));
     gap = v.wo_z > VNDF_R(0.0) ? gap : VNDF_R(0.0);
     bound.gap_z = gap * v.axis.z;
     bound.other_z = VNDF_FMA(VNDF_R(2.0), v.axis.z, -bound.gap_z);
@@ -88,7 +88,7 @@ VNDF_FN VNDF_REAL vndf_impl_ggx_bounded_half_pdf(struct vndf_ggx_lobe v, struct 
     VNDF_REAL slack = VNDF_R(4.0) * VNDF_EPSILON * h.scale *
                       (h.length2 + VNDF_R(4.0) * h.z + VNDF_R(2.0) * limit * h.q_slope);
     int inside = v.wo_z <= VNDF_R(0.0) || excess > -slack;
-    VNDF_REAL n = b.height * VNDF_R(7.450580596923828125e-09) / v.axis.weight;
+    VNDF_REAL n = VNDF_DIVIDE(b.height * VNDF_R(7.450580596923828125e-09), v.axis.weight);
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, v.alpha_x, v.alpha_y);
     return inside ? pdf : VNDF_R(0.0);
 }

@@ -21,7 +21,7 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_polygon(struct vndf_ggx_lobe v) {
     struct vndf_impl_bound bound;
     VNDF_REAL tangent2 = VNDF_FMA(v.wo_x, v.wo_x, v.wo_y * v.wo_y);
     // Only the direction of wo counts: its length is divided out.
-    VNDF_REAL wo2 = VNDF_FMA(v.wo_z, v.wo_z, tangent2), rcp_o = VNDF_R(1.0) / VNDF_SQRT(wo2);
+    VNDF_REAL wo2 = VNDF_FMA(v.wo_z, v.wo_z, tangent2), rcp_o = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(wo2));
     VNDF_REAL x = v.wo_x * rcp_o, y = v.wo_y * rcp_o, z2 = vndf_impl_square(v.wo_z * rcp_o);
     // Made dependent on the root before, so that the two are not packed (impl/stretch.h).
     VNDF_REAL sine = VNDF_SQRT(tangent2 * (rcp_o * rcp_o));
@@ -30,8 +30,9 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_polygon(struct vndf_ggx_lobe v) {
     VNDF_REAL along = vndf_impl_abs(swap ? x : y), across = swap ? y : x;
     VNDF_REAL s = VNDF_R(1.0) + sine, side = VNDF_R(1.0) + along, side2 = side * side;
     // s^2 - side^2, sin theta - |wo.y| being wo.x^2 over the sum.
-    VNDF_REAL sum = sine + along, slant = across * (low / high);
-    VNDF_REAL corner = slant * slant * (VNDF_R(2.0) + sum) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+    VNDF_REAL sum = sine + along, slant = across * VNDF_DIVIDE(low, high);
+    VNDF_REAL corner =
+        VNDF_DIVIDE(slant * slant * (VNDF_R(2.0) + sum), sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
     int wide = low >= VNDF_R(1.0);
     VNDF_REAL steep = VNDF_FMA(a2 * s, s, z2), flat = VNDF_FMA(a2, z2, side2);
     VNDF_REAL top = wide ? VNDF_R(2.0) * s : side2 + z2, bottom = wide ? steep : flat;
@@ -40,13 +41,13 @@ VNDF_FN struct vndf_impl_bound vndf_impl_ggx_polygon(struct vndf_ggx_lobe v) {
     top = other ? other_top : top;
     bottom = other ? other_bottom : bottom;
     int front = v.wo_z > VNDF_R(0.0);
-    VNDF_REAL rcp = VNDF_R(1.0) / bottom, gap = front ? a2 * top * rcp : VNDF_R(0.0);
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), bottom), gap = front ? a2 * top * rcp : VNDF_R(0.0);
     bound.gap_z = gap * v.axis.z;
     VNDF_REAL other_z = VNDF_FMA(VNDF_R(2.0), v.axis.z, -bound.gap_z), height = v.axis.height - bound.gap_z;
     VNDF_REAL l2 = VNDF_FMA(v.x, v.x, v.y * v.y), part = a2 * s;
     VNDF_REAL wide_z = VNDF_R(2.0) * VNDF_FMA(part, sine, z2) * rcp * v.axis.z;
     VNDF_REAL wide_height = VNDF_FMA(v.axis.height, VNDF_FMA(part, sine, z2),
-                                     part * (l2 / (front ? v.axis.height : VNDF_R(1.0)))) *
+                                     part * VNDF_DIVIDE(l2, front ? v.axis.height : VNDF_R(1.0))) *
                             rcp;
     bound.other_z = wide && front ? wide_z : other_z;
     bound.height = wide && front ? wide_height : height;

@@ -16,19 +16,19 @@ VNDF_BEGIN
 VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(struct vndf_ggx_lobe v, VNDF_REAL2 u) {
     VNDF_REAL u1 = vndf_impl_u(u.x), u2 = vndf_impl_u(u.y), rest = VNDF_R(1.0) - u1;
     // Below the surface, and where |wo| has left the range of numbers, they are not used, and only bounded.
-    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), rcp_t = VNDF_R(1.0) / v.axis.t,
-              rcp_l = VNDF_R(1.0) / l;
+    VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), rcp_t = VNDF_DIVIDE(VNDF_R(1.0), v.axis.t),
+              rcp_l = VNDF_DIVIDE(VNDF_R(1.0), l);
     VNDF_REAL z = vndf_impl_share(vndf_impl_abs(v.axis.z) * rcp_t), sine = vndf_impl_share(l * rcp_t),
               p = VNDF_R(1.0) + z;
     int facing = u2 * p < VNDF_R(1.0);
     // Half a turn at most: where z is lost in P = 1 + z the quotient may be any number. z = 0 has no tangent disk, and its
     // quotient is not used.
-    VNDF_REAL turn = facing ? VNDF_R(0.5) * u2 * p : VNDF_R(0.5) * (VNDF_R(1.0) - u2) * p / z;
+    VNDF_REAL turn = facing ? VNDF_R(0.5) * u2 * p : VNDF_DIVIDE(VNDF_R(0.5) * (VNDF_R(1.0) - u2) * p, z);
     turn = turn < VNDF_R(0.5) ? turn : VNDF_R(0.5);
     VNDF_REAL radius = VNDF_SQRT(u1), p1 = radius * vndf_impl_circle_cos(turn);
     VNDF_REAL b = radius * vndf_impl_circle_sin(turn), bs = b * sine;
     VNDF_REAL depth = VNDF_SQRT(facing ? rest : VNDF_FMA(bs, bs, rest));
-    VNDF_REAL hz = facing ? VNDF_FMA(depth, z, bs) : z * rest / (depth + bs);
+    VNDF_REAL hz = facing ? VNDF_FMA(depth, z, bs) : VNDF_DIVIDE(z * rest, depth + bs);
     VNDF_REAL p2 = facing ? b : -b * z;
     VNDF_REAL along = VNDF_FMA(depth, sine, -p2 * z);
     // T1 = (1, 0, 0) where the stretched view direction has no azimuth.
@@ -36,7 +36,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2017(struct vndf_ggx_lobe v, 
     VNDF_REAL ex = vertical ? VNDF_R(0.0) : v.x * rcp_l, ey = vertical ? VNDF_R(1.0) : v.y * rcp_l;
     struct vndf_impl_sample m =
         vndf_impl_ggx_unstretch(VNDF_FMA(along, ex, p1 * ey), VNDF_FMA(along, ey, -p1 * ex), hz, v.alpha_x,
-                                v.alpha_y, VNDF_R(2.0) * depth / p);
+                                v.alpha_y, VNDF_DIVIDE(VNDF_R(2.0) * depth, p));
     return vndf_impl_where(v.wo_z >= VNDF_R(0.0), m);
 }
 

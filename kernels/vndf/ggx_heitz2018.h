@@ -21,7 +21,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(struct vndf_ggx_lobe v, 
     VNDF_REAL radius = VNDF_SQRT(u2), t1 = radius * vndf_impl_circle_cos(u1);
     VNDF_REAL b = radius * vndf_impl_circle_sin(u1), abs_b = vndf_impl_abs(b);
     VNDF_REAL big_r = VNDF_SQRT(VNDF_FMA(b, b, VNDF_R(1.0) - u2));
-    VNDF_REAL sum = big_r + abs_b, difference = (VNDF_R(1.0) - u2) / sum;
+    VNDF_REAL sum = big_r + abs_b, difference = VNDF_DIVIDE(VNDF_R(1.0) - u2, sum);
     int lower = b < VNDF_R(0.0);
     VNDF_REAL plus = lower ? difference : sum, minus = lower ? sum : difference;  // R + b, R - b
     VNDF_REAL z = cap.z, sine = cap.sine;
@@ -36,16 +36,16 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz2018(struct vndf_ggx_lobe v, 
     // Towards the horizon Q and P differ by little, and their terms cancel: there t - z R, of two equal signs.
     int level = vndf_impl_abs(z) < VNDF_R(0.0625);
     VNDF_REAL factor = level ? VNDF_FMA(-z, big_r, t) : VNDF_FMA(VNDF_R(-0.5) * cap.p, minus, q_r);
-    VNDF_REAL conjugate = half_p_plus * factor / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
+    VNDF_REAL conjugate = VNDF_DIVIDE(half_p_plus * factor, other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (t < VNDF_R(0.0)) != (z < VNDF_R(0.0));
     VNDF_REAL hz = opposite ? conjugate : VNDF_FMA(t, sine, t_i * z);
     VNDF_REAL along = VNDF_FMA(t_i, sine, -t * z);
     // w1 = (1, 0, 0) where the stretched view direction has no azimuth.
     int vertical = v.wo_x == VNDF_R(0.0) && v.wo_y == VNDF_R(0.0);
     VNDF_REAL ex = vertical ? VNDF_R(0.0) : cap.x, ey = vertical ? VNDF_R(-1.0) : cap.y;
-    return vndf_impl_ggx_unstretch(VNDF_FMA(along, ex, -t1 * ey), VNDF_FMA(along, ey, t1 * ex), hz, v.alpha_x,
-                                   v.alpha_y,
-                                   cap.sqrt_p > VNDF_R(0.0) ? VNDF_R(2.0) * root / cap.sqrt_p : VNDF_R(0.0));
+    return vndf_impl_ggx_unstretch(
+        VNDF_FMA(along, ex, -t1 * ey), VNDF_FMA(along, ey, t1 * ex), hz, v.alpha_x, v.alpha_y,
+        cap.sqrt_p > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(2.0) * root, cap.sqrt_p) : VNDF_R(0.0));
 }
 
 // A visible normal by the cross section.

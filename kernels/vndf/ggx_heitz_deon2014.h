@@ -37,8 +37,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_slope_normal(struct vndf_impl_inci
     VNDF_REAL hx = VNDF_FMA(across, i.ey, -(along * i.ex)), hy = VNDF_FMA(-across, i.ex, -(along * i.ey));
     // Made dependent on hy, which is a number, so that LLVM's SLP pass does not pack this quotient with another one.
     VNDF_REAL visible = hy <= VNDF_REAL_MAX ? i.slope.visible : VNDF_R(1.0);
-    return vndf_impl_ggx_unstretch(hx, hy, i.slope.cos_psi * scale, i.alpha_x, i.alpha_y,
-                                   i.sqrt_p > VNDF_R(0.0) ? weight * visible / i.sqrt_p : VNDF_R(0.0));
+    return vndf_impl_ggx_unstretch(
+        hx, hy, i.slope.cos_psi * scale, i.alpha_x, i.alpha_y,
+        i.sqrt_p > VNDF_R(0.0) ? VNDF_DIVIDE(weight * visible, i.sqrt_p) : VNDF_R(0.0));
 }
 
 // The conditional distribution of z = tan(lambda) has the tail (eta - sin eta) / (2 pi), eta = pi - 2
@@ -67,8 +68,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_heitz_deon2014(struct vndf_ggx_lob
     // The density of z is 1 / (2 z'(U)) = D^2 / (2 (N' D - N D')), derivatives by U = 1 - w.
     VNDF_REAL dn = n1 - big_u * VNDF_FMA(VNDF_R(0.5477), w, VNDF_R(0.18599));
     VNDF_REAL dd = -VNDF_FMA(VNDF_FMA(VNDF_R(-0.279219), w, VNDF_R(1.177278)), w, VNDF_R(0.101941));
-    VNDF_REAL slope_density = VNDF_R(0.5) * d * d / VNDF_FMA(dn, d, -n * dd);
-    VNDF_REAL across = n / d, length2 = VNDF_FMA(across, across, VNDF_R(1.0));
+    VNDF_REAL slope_density = VNDF_DIVIDE(VNDF_R(0.5) * d * d, VNDF_FMA(dn, d, -n * dd));
+    VNDF_REAL across = VNDF_DIVIDE(n, d), length2 = VNDF_FMA(across, across, VNDF_R(1.0));
     struct vndf_impl_sample m = vndf_impl_ggx_slope_normal(i, upper ? across : -across, VNDF_R(1.0),
                                                            VNDF_PI * slope_density * length2 * length2);
     return vndf_impl_where(lobe.wo_z >= VNDF_R(0.0), m);

@@ -84,7 +84,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wm_world(VNDF_REAL3 wo, VNDF_REAL3 n, VNDF_REAL3 
     VNDF_REAL twice_sigma =
         vndf_impl_ggx_twice_sigma(vndf_impl_length(vndf_impl_cross(n, wo)), VNDF_R(0.0), wo_z, a, a);
     VNDF_REAL q = vndf_impl_ggx_q(vndf_impl_length(vndf_impl_cross(wm, n)), VNDF_R(0.0), wm_z, a, a);
-    VNDF_REAL area = (VNDF_2_PI / ((q * a) * (q * a))) * cos_om;
+    VNDF_REAL area = VNDF_DIVIDE(VNDF_2_PI, (q * a) * (q * a)) * cos_om;
     VNDF_REAL pdf = vndf_impl_bounded_quotient(vndf_impl_max(area, VNDF_R(0.0)), twice_sigma);
     // pdf is positive where wo . wm is.
     int visible = vndf_impl_min(pdf, wm_z) > VNDF_R(0.0) && twice_sigma > VNDF_R(0.0);

@@ -34,7 +34,8 @@ VNDF_FN VNDF_REAL vndf_eta_dispersed(VNDF_REAL eta, VNDF_REAL dispersion, VNDF_R
               v = vndf_impl_min(vndf_impl_max(dispersion, VNDF_R(0.0)), VNDF_R(100.0)),
               w = vndf_impl_min(vndf_impl_max(wavelength, VNDF_R(300.0)), VNDF_R(1000.0));
     // 1 / w^2 - 1 / d^2 without cancellation, over 1 / F^2 - 1 / C^2 and 20 d^2: 1 / (20 d^2 (1 / F^2 - 1 / C^2)).
-    VNDF_REAL rcp = VNDF_R(1.0) / w, place = (VNDF_R(587.56) - w) * (VNDF_R(587.56) + w) * (rcp * rcp);
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), w),
+              place = (VNDF_R(587.56) - w) * (VNDF_R(587.56) + w) * (rcp * rcp);
     VNDF_REAL part = VNDF_R(0.075842193807827282784) * v * place;
     return vndf_impl_min(vndf_impl_max(VNDF_FMA(n - VNDF_R(1.0), part, n), VNDF_R(1e-3)), VNDF_R(1e3));
 }

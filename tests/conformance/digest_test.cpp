@@ -1,6 +1,7 @@
 // Strict float has the same bits on every device and in every host build: digests of tests/data, made by
 //   clvndf check --digest --on host >tests/data/digests.txt
 //   clvndf check --digest --on host --quick >tests/data/digests_quick.txt
+//   clvndf check --digest --on host --answers >tests/data/answers.csv
 // Compilers and options: same_bits.sh. Other devices: oclgrind.sh, rusticl.sh.
 #include <fstream>
 #include <set>
@@ -42,7 +43,40 @@ conformance::BitsOptions bits_of(std::size_t rows) {
 
 const conformance::BitsOptions quick = bits_of(conformance::quick_digest_rows);
 
+// With VNDF_SOFTWARE_DIVIDE, on a device whose quotients and roots are off by 3 ulp to either side.
+std::set<std::string> differing_with_own_division(const std::vector<std::string>& names) {
+    runtime::ProgramOptions program;
+    program.functions = names;
+    program.build_options =
+        "-DVNDF_SOFTWARE_DIVIDE=1 "
+        "-DVNDF_IMPL_ROUGH_QUOTIENT(a,b)=as_float(as_int((a)/(b))+3-6*(as_int(b)&1)) "
+        "-DVNDF_IMPL_ROUGH_ROOT(x)=as_float(as_int(sqrt(x))+3-6*(as_int(x)&1))";
+    runtime::DeviceEvaluator device(runtime::choose_device().device, runtime::Math::strict,
+                                    runtime::Real::f32, program);
+    runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);
+    std::vector<const Function*> selected;
+    for (const std::string& name : names) selected.push_back(find_function(name));
+    const auto of = [&](runtime::Evaluator& evaluator) {
+        return conformance::format_digests(conformance::digests(evaluator, selected, quick));
+    };
+    return differing(of(device), of(host));
+}
+
 }  // namespace
+
+TEST_CASE("whatever the device's quotients and roots are, with those of our own the bits are the same") {
+    CHECK(differing_with_own_division({"vndf_ggx_sample_wm_dupuy2023_with_pdf", "vndf_ggx_sample_wi_eto2023",
+                                       "vndf_ggx_sample_wm_heitz2018",
+                                       "vndf_beckmann_sample_wm_heitz_deon2014", "vndf_ggx_weight",
+                                       "vndf_fresnel_conductor"}) == std::set<std::string>());
+}
+
+// Minutes, most of them of PoCL's compiler.
+TEST_CASE("the same for every function", "[.divide-full]") {
+    std::vector<std::string> names;
+    for (const Function& function : functions()) names.push_back(function.name);
+    CHECK(differing_with_own_division(names) == std::set<std::string>());
+}
 
 TEST_CASE("the device has the committed digests") {
     const Outcome run = clvndf("check --digest");
@@ -51,6 +85,11 @@ TEST_CASE("the device has the committed digests") {
     CHECK(differing(run.out, committed("digests.txt")) == std::set<std::string>());
     CHECK(differing(clvndf("check --digest --quick").out, committed("digests_quick.txt")) ==
           std::set<std::string>());
+}
+
+TEST_CASE("the device and the host build give the committed answers") {
+    CHECK(clvndf("check --digest --answers").out == committed("answers.csv"));
+    CHECK(clvndf("check --digest --answers --on host").out == committed("answers.csv"));
 }
 
 TEST_CASE("the host build has the committed digests") {

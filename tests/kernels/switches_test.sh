@@ -44,7 +44,7 @@ values() {
     for value in half vndf_float 1 ''; do refused "float and double are allowed" "$@" -DVNDF_REAL=$value; done
     mode=-E
     for value in fast Strict 1 ''; do refused "strict, builtin and native are allowed" "$@" -DVNDF_MATH=$value; done
-    for switch in VNDF_SOFTWARE_FMA VNDF_ALLOW_FAST_MATH; do
+    for switch in VNDF_SOFTWARE_FMA VNDF_SOFTWARE_DIVIDE VNDF_ALLOW_FAST_MATH; do
         for value in yes 2 ''; do refused "unknown $switch; 0 and 1 are allowed" "$@" -D$switch=$value; done
     done
     refused "float only" "$@" -DVNDF_REAL=double -DVNDF_MATH=native

@@ -104,7 +104,8 @@ class Text(unittest.TestCase):
     def test_options_follow_the_device(self):
         class Device:
             single_fp_config = 0
-        self.assertEqual(clvndf.options(Device), ["-DVNDF_REAL=float", "-DVNDF_MATH=strict", "-DVNDF_SOFTWARE_FMA=1"])
+        self.assertEqual(clvndf.options(Device), ["-DVNDF_REAL=float", "-DVNDF_MATH=strict", "-DVNDF_SOFTWARE_FMA=1",
+                                                  "-DVNDF_SOFTWARE_DIVIDE=1"])
         Device.single_fp_config = 0xbf
         self.assertEqual(clvndf.options(Device, "builtin", "double"),
                          ["-DVNDF_REAL=double", "-DVNDF_MATH=builtin", "-cl-fp32-correctly-rounded-divide-sqrt"])

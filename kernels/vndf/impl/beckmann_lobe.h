@@ -29,12 +29,12 @@ VNDF_FN struct vndf_impl_pair vndf_impl_beckmann_square(VNDF_REAL3 wo, VNDF_REAL
     VNDF_REAL up = VNDF_R(134217728.0), ax = alpha_x * up, ay = alpha_y * up, z = wo.z * up;
     VNDF_REAL x = ax * wo.x, y = ay * wo.y, x2 = x * x, y2 = y * y, z2 = z * z;
     // At least 2^-70 (double: 2^-518), against infinity: beyond lies a view that sees nothing.
-    VNDF_REAL l2 = vndf_impl_max(x2 + y2, VNDF_R(0.015625) * VNDF_IMPL_ROOT_LEAST), a2 = z2 / l2;
+    VNDF_REAL l2 = vndf_impl_max(x2 + y2, VNDF_R(0.015625) * VNDF_IMPL_ROOT_LEAST), a2 = VNDF_DIVIDE(z2, l2);
     VNDF_REAL cross = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
     VNDF_REAL squares = VNDF_FMA(x, x, -x2) + (VNDF_FMA(y, y, -y2) + vndf_impl_sum_error(x2, y2, l2));
     VNDF_REAL l2_low = VNDF_FMA(VNDF_R(2.0), cross, squares);
     square.head = a2;
-    square.tail = (VNDF_FMA(-a2, l2, z2) + (VNDF_FMA(z, z, -z2) - a2 * l2_low)) / l2;
+    square.tail = VNDF_DIVIDE((VNDF_FMA(-a2, l2, z2) + (VNDF_FMA(z, z, -z2) - a2 * l2_low)), l2);
     return square;
 }
 
@@ -48,15 +48,15 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.wo_z = wo.z;
     lobe.alpha_x = alpha_x;
     lobe.alpha_y = alpha_y;
-    lobe.rcp_x = VNDF_R(1.0) / alpha_x;
+    lobe.rcp_x = VNDF_DIVIDE(VNDF_R(1.0), alpha_x);
     // Made dependent, so that the two quotients are not packed (impl/stretch.h); the other choice is never taken.
-    lobe.rcp_y = (lobe.rcp_x > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0)) / alpha_y;
+    lobe.rcp_y = VNDF_DIVIDE(lobe.rcp_x > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0), alpha_y);
     VNDF_REAL up = VNDF_R(1099511627776.0), least = VNDF_R(1e6) * VNDF_IMPL_ROOT_LEAST * VNDF_IMPL_ROOT_LEAST;
     VNDF_REAL ax = alpha_x * up, ay = alpha_y * up;
     VNDF_REAL x = ax * wo.x, y = ay * wo.y, square = VNDF_FMA(x, x, y * y);
     // Beyond, the length of wo has left the range of numbers.
     int tilted = square > least && square <= VNDF_REAL_MAX;
-    VNDF_REAL root = VNDF_SQRT(tilted ? square : least), rcp = VNDF_R(1.0) / root;
+    VNDF_REAL root = VNDF_SQRT(tilted ? square : least), rcp = VNDF_DIVIDE(VNDF_R(1.0), root);
     lobe.ex = tilted ? x * rcp : VNDF_R(1.0);
     lobe.ey = tilted ? y * rcp : VNDF_R(0.0);
     VNDF_REAL low = VNDF_FMA(x, VNDF_FMA(ax, wo.x, -x), y * VNDF_FMA(ay, wo.y, -y));
@@ -64,7 +64,7 @@ VNDF_FN struct vndf_beckmann_lobe vndf_impl_beckmann_lobe_of(VNDF_REAL3 wo, VNDF
     lobe.l = tilted ? VNDF_FMA(low, rcp, root) * VNDF_R(9.094947017729282379e-13) : VNDF_R(0.0);
     lobe.sees = tilted || wo.z >= VNDF_R(0.0);
     VNDF_REAL height = vndf_impl_abs(wo.z) * up, steep = vndf_impl_min(height * rcp, VNDF_IMPL_STEEP_LIMIT);
-    lobe.beyond = vndf_impl_max(steep * (VNDF_R(1.0) / VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
+    lobe.beyond = vndf_impl_max(steep * VNDF_DIVIDE(VNDF_R(1.0), VNDF_IMPL_COT_LIMIT), VNDF_R(1.0));
     lobe.square = vndf_impl_beckmann_square(wo, alpha_x, alpha_y);
     lobe.slopes = vndf_impl_beckmann_incidence(steep, height, root, wo.z >= VNDF_R(0.0));
     return lobe;
@@ -81,7 +81,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_normal(struct vndf_beckmann_l
     VNDF_REAL square = p * q, exponent = VNDF_FMA(across, across, square);
     VNDF_REAL low = VNDF_FMA(across, across, square - exponent) + VNDF_FMA(p, q, -square);
     // Where |a| is limited, the density grows with it on.
-    VNDF_REAL share = VNDF_1_PI * r.y / i.area * (i.front ? VNDF_R(1.0) : lobe.beyond);
+    VNDF_REAL share = VNDF_DIVIDE(VNDF_1_PI * r.y, i.area) * (i.front ? VNDF_R(1.0) : lobe.beyond);
     VNDF_REAL e = vndf_impl_moderate_exp(-exponent),
               weight = lobe.sees ? share * VNDF_FMA(-low, e, e) : VNDF_R(0.0);
     VNDF_REAL t = i.front ? -r.x : i.steep + r.y;
@@ -163,7 +163,8 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_share(struct vndf_beckmann_lob
         vndf_impl_split(area.part > VNDF_R(0.0) ? lobe.slopes.hidden : VNDF_R(1.0));
     struct vndf_impl_power up = vndf_impl_split(least.part > VNDF_R(0.0) ? rise : VNDF_R(1.0));
     // Where |a| is limited, the density grows with its square on.
-    VNDF_REAL seen = weight / area.part, share = front ? seen : seen / least.part * lobe.beyond * lobe.beyond;
+    VNDF_REAL seen = VNDF_DIVIDE(weight, area.part),
+              share = front ? seen : VNDF_DIVIDE(seen, least.part) * lobe.beyond * lobe.beyond;
     scale.part = VNDF_1_PI * share * (up.part * lobe.rcp_x) * (up.part * lobe.rcp_y);
     scale.exponent = 2 * up.exponent - area.exponent - (front ? 0 : least.exponent);
     scale.part = front || level ? scale.part : VNDF_R(0.0);
@@ -178,13 +179,14 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_visible(struct vndf_beckmann_l
                                                           int rounded, VNDF_REAL rise, VNDF_REAL weight) {
     int front = lobe.slopes.front;
     // Slopes beyond 2^62 (double: 2^510) have the density 0.
-    VNDF_REAL limit = VNDF_R(0.25) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL limit = VNDF_DIVIDE(VNDF_R(0.25), VNDF_IMPL_ROOT_LEAST);
     VNDF_REAL sx = tx * lobe.rcp_x, sy = ty * lobe.rcp_y;
     VNDF_REAL qx = vndf_impl_min(vndf_impl_abs(sx), limit), qy = vndf_impl_min(vndf_impl_abs(sy), limit);
     VNDF_REAL q = VNDF_FMA(qx, qx, qy * qy);
     // tau = cosine / (z l): both times a power of two, since the product may underflow.
     VNDF_REAL l = lobe.l > VNDF_R(0.0) ? lobe.l : VNDF_R(1.0),
-              tau = cosine / VNDF_IMPL_ROOT_LEAST / (z / VNDF_IMPL_ROOT_LEAST * l);
+              tau = VNDF_DIVIDE(VNDF_DIVIDE(cosine, VNDF_IMPL_ROOT_LEAST),
+                                VNDF_DIVIDE(z, VNDF_IMPL_ROOT_LEAST) * l);
     VNDF_REAL lean = vndf_impl_min(vndf_impl_max(tau, VNDF_R(0.0)), limit);
     VNDF_REAL across =
         vndf_impl_min(vndf_impl_abs(vndf_impl_difference_of_products(sx, lobe.ey, sy, lobe.ex)), limit);
@@ -204,7 +206,7 @@ VNDF_FN struct vndf_impl_power vndf_impl_beckmann_along(struct vndf_beckmann_lob
     VNDF_REAL height = vndf_impl_beckmann_height(z);
     int above = z > VNDF_R(0.0);
     // ty waits for tx, which is finite: side by side they would be packed (impl/stretch.h).
-    VNDF_REAL tx = x / height, ty = (tx <= VNDF_REAL_MAX ? y : VNDF_R(0.0)) / height;
+    VNDF_REAL tx = VNDF_DIVIDE(x, height), ty = VNDF_DIVIDE(tx <= VNDF_REAL_MAX ? y : VNDF_R(0.0), height);
     VNDF_REAL rise = VNDF_FMA(tx, tx, VNDF_FMA(ty, ty, VNDF_R(1.0)));
     return vndf_impl_beckmann_visible(lobe, tx, ty, height, above ? cosine : VNDF_R(0.0), rounded, rise,
                                       above ? weight : VNDF_R(0.0));

@@ -47,7 +47,7 @@ VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_incidence(VNDF_REAL
     i.steep = steep;
     i.a = vndf_impl_min(steep, VNDF_IMPL_COT_LIMIT);
     VNDF_REAL twice = VNDF_R(2.0) * width;
-    i.s = vndf_impl_max(twice / (twice + height), VNDF_R(2.0) / VNDF_IMPL_COT_LIMIT);
+    i.s = vndf_impl_max(VNDF_DIVIDE(twice, twice + height), VNDF_DIVIDE(VNDF_R(2.0), VNDF_IMPL_COT_LIMIT));
     i.exponent = bounded * bounded;
     i.gaussian = vndf_impl_moderate_exp(-i.exponent);
     struct vndf_impl_scaled_erfc f = vndf_impl_scaled_erfc_at(i.a, i.s);
@@ -71,10 +71,10 @@ VNDF_FN VNDF_REAL vndf_impl_edge_integral(VNDF_REAL z, VNDF_REAL w) {
     VNDF_REAL before = 1.0, h = z, v = -2.0 * w, next, sum = VNDF_FMA(0.33333333333333333333, z, 1.0);
     // clang-format off
 #define VNDF_IMPL_TERM(n)                                   \
-    next = VNDF_FMA(z, h, v * before) * (1.0 / n);          \
+    next = VNDF_FMA(z, h, v * before) * VNDF_DIVIDE(1.0, n);          \
     before = h;                                             \
     h = next;                                               \
-    sum = VNDF_FMA(2.0 / ((n + 1.0) * (n + 2.0)), h, sum);
+    sum = VNDF_FMA(VNDF_DIVIDE(2.0, (n + 1.0) * (n + 2.0)), h, sum);
     VNDF_IMPL_TERM(2.0) VNDF_IMPL_TERM(3.0) VNDF_IMPL_TERM(4.0) VNDF_IMPL_TERM(5.0) VNDF_IMPL_TERM(6.0)
     VNDF_IMPL_TERM(7.0) VNDF_IMPL_TERM(8.0) VNDF_IMPL_TERM(9.0) VNDF_IMPL_TERM(10.0) VNDF_IMPL_TERM(11.0)
     VNDF_IMPL_TERM(12.0) VNDF_IMPL_TERM(13.0) VNDF_IMPL_TERM(14.0) VNDF_IMPL_TERM(15.0) VNDF_IMPL_TERM(16.0)
@@ -137,7 +137,7 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_start(struct vndf_impl_in
 // formula, but as a sum of which the last term has r, since all wait for it.
 VNDF_FN VNDF_REAL vndf_impl_slope_mass(struct vndf_impl_incidence_slopes i,
                                        struct vndf_impl_visible_slope r) {
-    VNDF_REAL size = VNDF_STD(fabs)(r.x), v = VNDF_R(2.0) / (VNDF_R(2.0) + size);
+    VNDF_REAL size = VNDF_STD(fabs)(r.x), v = VNDF_DIVIDE(VNDF_R(2.0), VNDF_R(2.0) + size);
     int right = r.x > VNDF_R(0.0), front = i.front, tail = !front && size >= VNDF_R(0.4);
     VNDF_REAL last = vndf_impl_scaled_erfc_rest(v), v2 = v * v, v3 = v2 * v;
     VNDF_REAL first = VNDF_R(0.5) * VNDF_1_SQRT_PI, third = VNDF_IMPL_ERFCX_THIRD;
@@ -165,7 +165,7 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_inc
     VNDF_REAL above =
         square * vndf_impl_edge_integral(edge ? lean : VNDF_R(0.0), edge ? square : VNDF_R(0.0));
     VNDF_REAL mass = vndf_impl_slope_mass(i, r);
-    VNDF_REAL rcp = VNDF_R(1.0) / y;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), y);
     VNDF_REAL excess =
         VNDF_FMA(edge ? q * i.area : -target, e, edge ? VNDF_R(-0.5) * VNDF_1_SQRT_PI * above : mass);
 
@@ -182,7 +182,7 @@ VNDF_FN struct vndf_impl_visible_slope vndf_impl_slope_step(struct vndf_impl_inc
     VNDF_REAL n = vndf_impl_max(v * rcp * high, -low);
     VNDF_REAL under =
         VNDF_FMA(VNDF_R(0.65450849718747371205), n, low) * VNDF_FMA(VNDF_R(0.095491502812526287949), n, low);
-    VNDF_REAL twice = y * n * VNDF_FMA(VNDF_R(0.5), n, low) / under;
+    VNDF_REAL twice = VNDF_DIVIDE(y * n * VNDF_FMA(VNDF_R(0.5), n, low), under);
     r.y = VNDF_FMA(VNDF_R(0.5), twice, y);
     r.x = VNDF_FMA(VNDF_R(-0.5), twice, x);
     return r;
@@ -210,7 +210,7 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_slope(VNDF_REAL x) {
 
 VNDF_FN struct vndf_impl_incidence_slopes vndf_impl_beckmann_angle(VNDF_REAL cos_theta) {
     VNDF_REAL sine = vndf_impl_sin_from_cos(cos_theta);
-    VNDF_REAL steep = vndf_impl_abs(cos_theta) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    VNDF_REAL steep = VNDF_DIVIDE(vndf_impl_abs(cos_theta), sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     return vndf_impl_beckmann_incidence(sine > VNDF_R(0.0) ? steep : VNDF_IMPL_STEEP_LIMIT,
                                         vndf_impl_abs(cos_theta), sine, cos_theta >= VNDF_R(0.0));
 }
@@ -226,7 +226,7 @@ VNDF_FN struct vndf_impl_seen_slope vndf_impl_beckmann_seen_slope(VNDF_REAL cos_
     s.slopes = vndf_impl_beckmann_angle(cos_theta);
     s.x = vndf_impl_bounded_slope(slope);
     s.visible = vndf_impl_visible_cosine(cos_theta, s.x);
-    VNDF_REAL y = vndf_impl_max(s.visible, VNDF_R(0.0)) / (sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
+    VNDF_REAL y = VNDF_DIVIDE(vndf_impl_max(s.visible, VNDF_R(0.0)), sine > VNDF_R(0.0) ? sine : VNDF_R(1.0));
     s.y = sine > VNDF_R(0.0) ? y : s.slopes.a;
     return s;
 }
@@ -250,13 +250,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_beckmann_unstretch(VNDF_REAL ex, VNDF_
     VNDF_REAL gx = VNDF_FMA(alpha_x * ex, t, -(alpha_x * ey * y)),
               gy = VNDF_FMA(alpha_y * ex, y, alpha_y * ey * t);
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, VNDF_R(1.0))), length = VNDF_SQRT(length2);
-    VNDF_REAL rcp = VNDF_R(1.0) / length;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = rcp;
     // The cube of a length may be no number.
     struct vndf_impl_power rise = vndf_impl_split(length);
-    VNDF_REAL part = weight * rise.part / (alpha_x * alpha_y) * rise.part * rise.part;
+    VNDF_REAL part = VNDF_DIVIDE(weight * rise.part, alpha_x * alpha_y) * rise.part * rise.part;
     m.pdf = vndf_impl_times_power(part, 3 * rise.exponent);
     return m;
 }

@@ -11,7 +11,7 @@ VNDF_BEGIN
 // that rounds to 0; l = 0 is normal incidence.
 VNDF_FN VNDF_REAL vndf_impl_beckmann_cot(VNDF_REAL l, VNDF_REAL z) {
     VNDF_REAL limit = VNDF_DOUBLE ? VNDF_R(1.329227995784916e36) : VNDF_R(1152921504606846976.0);
-    return l > VNDF_R(0.0) ? vndf_impl_min(vndf_impl_abs(z) / l, limit) : limit;
+    return l > VNDF_R(0.0) ? vndf_impl_min(VNDF_DIVIDE(vndf_impl_abs(z), l), limit) : limit;
 }
 
 // weight D for a normal (x, y, z), taken literally.
@@ -19,10 +19,11 @@ VNDF_FN VNDF_REAL vndf_impl_beckmann_d(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VN
                                        VNDF_REAL alpha_y, VNDF_REAL weight) {
     // Where z is below 2^-16, or a slope beyond 2^20 alpha, the exponential is 0.
     VNDF_REAL up = vndf_impl_max(z, VNDF_R(1.52587890625e-05)), limit = VNDF_R(1048576.0);
-    VNDF_REAL z2 = up * up, sx = vndf_impl_min(vndf_impl_abs(x), alpha_x * limit) / alpha_x / up,
-              sy = vndf_impl_min(vndf_impl_abs(y), alpha_y * limit) / alpha_y / up;
+    VNDF_REAL z2 = up * up,
+              sx = VNDF_DIVIDE(VNDF_DIVIDE(vndf_impl_min(vndf_impl_abs(x), alpha_x * limit), alpha_x), up),
+              sy = VNDF_DIVIDE(VNDF_DIVIDE(vndf_impl_min(vndf_impl_abs(y), alpha_y * limit), alpha_y), up);
     VNDF_REAL d = vndf_impl_scaled_exp(-VNDF_FMA(sx, sx, sy * sy), VNDF_R(0.0),
-                                       VNDF_1_PI * weight / ((z2 * alpha_x) * (z2 * alpha_y)));
+                                       VNDF_DIVIDE(VNDF_1_PI * weight, (z2 * alpha_x) * (z2 * alpha_y)));
     return z > VNDF_R(0.0) ? vndf_impl_finite(d) : VNDF_R(0.0);
 }
 

@@ -73,8 +73,9 @@ VNDF_FN VNDF_REAL vndf_impl_visible_cosine(VNDF_REAL cos_theta, VNDF_REAL x) {
     VNDF_REAL square = cos_theta * cos_theta, rest = VNDF_R(1.0) - square;
     VNDF_REAL rest_error = ((VNDF_R(1.0) - rest) - square) - VNDF_FMA(cos_theta, cos_theta, -square);
     VNDF_REAL sine = VNDF_SQRT(rest > VNDF_R(0.0) ? rest : VNDF_R(0.0));
-    VNDF_REAL sine_error =
-        sine > VNDF_R(0.0) ? VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error) / sine : VNDF_R(0.0);
+    VNDF_REAL sine_error = sine > VNDF_R(0.0)
+                               ? VNDF_DIVIDE(VNDF_R(0.5) * (VNDF_FMA(-sine, sine, rest) + rest_error), sine)
+                               : VNDF_R(0.0);
     return VNDF_FMA(-x, sine, cos_theta) - x * sine_error;
 }
 

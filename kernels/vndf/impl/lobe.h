@@ -64,7 +64,7 @@ struct vndf_ggx_lobe {
 
 // Twice the projected area that wo sees, z + t.
 VNDF_FN VNDF_REAL vndf_impl_lobe_twice_sigma(struct vndf_ggx_lobe lobe) {
-    return lobe.axis.height * VNDF_R(7.450580596923828125e-09) / lobe.axis.weight;
+    return VNDF_DIVIDE(lobe.axis.height * VNDF_R(7.450580596923828125e-09), lobe.axis.weight);
 }
 
 // e + (x, y), e at azimuth u1 and height z, |e|^2 = e2. What rounding does to |e| is corrected: e2 - l2 = z (2 z_v - z), or
@@ -76,7 +76,7 @@ VNDF_FN struct vndf_impl_vector vndf_impl_cap_sum(struct vndf_ggx_lobe v, VNDF_R
     VNDF_REAL ex = radius * vndf_impl_circle_cos(u1), ey = radius * vndf_impl_circle_sin(u1);
     VNDF_REAL hx = ex + v.x, hy = ey + v.y,
               excess = v.axis.level ? z * VNDF_FMA(VNDF_R(2.0), v.axis.z, -z) : steep;
-    VNDF_REAL error = VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)) / (e2 + l2);
+    VNDF_REAL error = VNDF_DIVIDE(VNDF_FMA(ex - v.x, hx, VNDF_FMA(ey - v.y, hy, -excess)), e2 + l2);
     h.x = VNDF_FMA(-error, ex, hx);
     h.y = VNDF_FMA(-error, ey, hy);
     h.z = z;
@@ -100,20 +100,21 @@ VNDF_FN struct vndf_impl_sample vndf_impl_lobe_reflection(struct vndf_ggx_lobe v
     VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y;
     VNDF_REAL g2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
     VNDF_REAL cosine = VNDF_FMA(v.wo_x, gx, VNDF_FMA(v.wo_y, gy, v.wo_z * h.z));
-    VNDF_REAL twice = VNDF_R(2.0) * cosine / g2;
+    VNDF_REAL twice = VNDF_DIVIDE(VNDF_R(2.0) * cosine, g2);
     o.x = VNDF_FMA(twice, gx, -v.wo_x);
     o.y = VNDF_FMA(twice, gy, -v.wo_y);
     o.z = VNDF_FMA(twice, h.z, -v.wo_z);
     // Only the direction of wo counts: the length that the mirror kept is divided out.
     VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), length = VNDF_SQRT(o2),
-              rcp = VNDF_R(1.0) / length;
+              rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     o.x *= rcp;
     o.y *= rcp;
     o.z *= rcp;
-    VNDF_REAL ratio = g2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
+    VNDF_REAL ratio = VNDF_DIVIDE(g2, VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z)));
     // Made dependent, so that the two quotients are not packed (impl/stretch.h); the other choice is never taken.
-    VNDF_REAL n = height / v.axis.weight, area = n < VNDF_R(0.0) ? VNDF_R(1.0) : v.alpha_x * v.alpha_y;
-    VNDF_REAL density = (VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * ratio * length) / area;
+    VNDF_REAL n = VNDF_DIVIDE(height, v.axis.weight),
+              area = n < VNDF_R(0.0) ? VNDF_R(1.0) : v.alpha_x * v.alpha_y;
+    VNDF_REAL density = VNDF_DIVIDE((VNDF_R(67108864.0) * VNDF_1_PI) * (ratio * ratio * length), area);
     VNDF_REAL pdf = vndf_impl_bounded_quotient(density, n);
     o.pdf = height > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
@@ -129,7 +130,7 @@ VNDF_FN struct vndf_impl_polar vndf_impl_polar_of(struct vndf_ggx_lobe v) {
     // Each root and quotient feeds the next: alike they would be packed (impl/stretch.h).
     VNDF_REAL l = VNDF_SQRT(VNDF_FMA(v.x, v.x, v.y * v.y)), l2 = l * l,
               height2 = v.axis.height * v.axis.height;
-    VNDF_REAL rcp = VNDF_R(2.0) / (l2 + height2), rcp_l = VNDF_R(1.0) / l;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(2.0), l2 + height2), rcp_l = VNDF_DIVIDE(VNDF_R(1.0), l);
     VNDF_REAL level = VNDF_R(2.0) * v.axis.z * v.axis.height, steep = height2 - l2;
     polar.x = v.x * rcp_l;
     polar.y = v.y * rcp_l;

@@ -100,7 +100,7 @@ VNDF_FN VNDF_REAL vndf_impl_log(VNDF_REAL x) {
     VNDF_REAL k = (VNDF_REAL)(bits >> VNDF_IMPL_MANTISSA_BITS);
     VNDF_INT mantissa = bits & (((VNDF_INT)1 << VNDF_IMPL_MANTISSA_BITS) - 1);
     VNDF_REAL f = VNDF_AS_REAL(mantissa + low) - VNDF_R(1.0);
-    VNDF_REAL s = f / (VNDF_R(2.0) + f);
+    VNDF_REAL s = VNDF_DIVIDE(f, VNDF_R(2.0) + f);
     VNDF_REAL z = s * s;
     VNDF_IMPL_LOG(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL half_square = VNDF_R(0.5) * f * f;
@@ -268,7 +268,7 @@ VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_at(VNDF_REAL x, VNDF_
 }
 // The same where the last digits count: v with the rounding errors of 2 + x and of the quotient.
 VNDF_FN struct vndf_impl_scaled_erfc vndf_impl_scaled_erfc_of(VNDF_REAL x) {
-    VNDF_REAL sum = VNDF_R(2.0) + x, low = x - (sum - VNDF_R(2.0)), v = VNDF_R(2.0) / sum;
+    VNDF_REAL sum = VNDF_R(2.0) + x, low = x - (sum - VNDF_R(2.0)), v = VNDF_DIVIDE(VNDF_R(2.0), sum);
     VNDF_REAL rest = VNDF_FMA(-v, low, VNDF_FMA(-v, sum, VNDF_R(2.0)));
     return vndf_impl_scaled_erfc_at(x, VNDF_FMA(VNDF_R(0.5) * v, rest, v));
 }
@@ -286,7 +286,7 @@ VNDF_FN VNDF_REAL vndf_impl_erfinv_ratio_of_log(VNDF_REAL w, VNDF_REAL root) {
     int centre =
         w <= VNDF_R(7.0);  // one polynomial, whose coefficients are selected: two would not vectorise
 #if VNDF_DOUBLE
-    VNDF_REAL inverse = 1.0 / (centre ? 1.0 : root);
+    VNDF_REAL inverse = VNDF_DIVIDE(1.0, centre ? 1.0 : root);
     int middle = w <= 40.0;
     VNDF_REAL z = centre ? w - 3.5 : inverse - (middle ? 0.25 : 0.1);
     VNDF_IMPL_ERFINV(VNDF_IMPL_FIRST_OF, VNDF_IMPL_NEXT_OF)
@@ -358,7 +358,7 @@ VNDF_FN VNDF_REAL vndf_impl_turn(VNDF_REAL x, VNDF_REAL y) {
     VNDF_REAL ax = vndf_impl_abs(x), ay = vndf_impl_abs(y);
 #if VNDF_IMPL_STRICT
     VNDF_REAL larger = ax < ay ? ay : ax, smaller = ax < ay ? ax : ay;
-    VNDF_REAL t = larger > VNDF_R(0.0) ? smaller / larger : x - x;
+    VNDF_REAL t = larger > VNDF_R(0.0) ? VNDF_DIVIDE(smaller, larger) : x - x;
     VNDF_REAL z = t * t;
     VNDF_IMPL_ARC(VNDF_IMPL_FIRST, VNDF_IMPL_NEXT)
     VNDF_REAL a = t * p;

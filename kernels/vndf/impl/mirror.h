@@ -10,7 +10,8 @@ VNDF_BEGIN
 // D / (2 n) of a normal whose unstretched form is `ratio` times as long squared, for a normaliser n > 0.
 VNDF_FN VNDF_REAL vndf_impl_reflection_density(VNDF_REAL ratio, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
-    VNDF_REAL density = (VNDF_R(0.5) * VNDF_1_PI * ratio / vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio;
+    VNDF_REAL density =
+        VNDF_DIVIDE(VNDF_R(0.5) * VNDF_1_PI * ratio, vndf_impl_max(n, VNDF_IMPL_LEAST)) * ratio;
     return vndf_impl_bounded_quotient(density, alpha_x * alpha_y);
 }
 
@@ -29,8 +30,8 @@ VNDF_FN struct vndf_impl_mirror vndf_impl_mirror_of(VNDF_REAL wo_x, VNDF_REAL wo
               h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
     VNDF_REAL cosine = VNDF_FMA(wo_x, gx, VNDF_FMA(wo_y, gy, wo_z * hz));
     o.defined = g2 > VNDF_R(0.0);
-    VNDF_REAL twice = o.defined ? VNDF_R(2.0) * cosine / g2 : VNDF_R(0.0);
-    o.ratio = g2 / h2;
+    VNDF_REAL twice = o.defined ? VNDF_DIVIDE(VNDF_R(2.0) * cosine, g2) : VNDF_R(0.0);
+    o.ratio = VNDF_DIVIDE(g2, h2);
     o.x = VNDF_FMA(twice, gx, -wo_x);
     o.y = VNDF_FMA(twice, gy, -wo_y);
     o.z = VNDF_FMA(twice, hz, -wo_z);
@@ -47,7 +48,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_mirrored(VNDF_REAL wo_x, VNDF_REAL wo_
     o.y = VNDF_FMA(twice, m.y, -wo_y);
     o.z = VNDF_FMA(twice, m.z, -wo_z);
     // Only the direction of wo counts: the length that the mirror kept is divided out.
-    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    VNDF_REAL o2 = VNDF_FMA(o.x, o.x, VNDF_FMA(o.y, o.y, o.z * o.z)),
+              rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(o2));
     o.x *= rcp;
     o.y *= rcp;
     o.z *= rcp;
@@ -68,7 +70,7 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_along(VNDF_REAL x, VNDF_REAL y, VND
     x *= h.scale;
     y *= h.scale;
     h.z = z * h.scale;
-    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y;
+    VNDF_REAL rcp_x = VNDF_DIVIDE(VNDF_R(1.0), alpha_x), rcp_y = VNDF_DIVIDE(VNDF_R(1.0), alpha_y);
     // Quotients with little more than one rounding; of two shapes: alike they would be packed (impl/stretch.h).
     VNDF_REAL sx = x * rcp_x, sy = y * rcp_y;
     sx += VNDF_FMA(-sx, alpha_x, x) * rcp_x;
@@ -86,7 +88,7 @@ VNDF_FN struct vndf_impl_half vndf_impl_half_of(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
 // D / (2 n) of the half vector, for a normaliser n.
 VNDF_FN VNDF_REAL vndf_impl_ggx_reflection_pdf(struct vndf_impl_half h, VNDF_REAL n, VNDF_REAL alpha_x,
                                                VNDF_REAL alpha_y) {
-    VNDF_REAL ratio = h.length2 / (h.q > VNDF_R(0.0) ? h.q : VNDF_R(1.0));
+    VNDF_REAL ratio = VNDF_DIVIDE(h.length2, h.q > VNDF_R(0.0) ? h.q : VNDF_R(1.0));
     VNDF_REAL pdf = vndf_impl_reflection_density(ratio, n, alpha_x, alpha_y);
     return h.z > VNDF_R(0.0) && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
 }

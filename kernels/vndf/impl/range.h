@@ -46,7 +46,7 @@ VNDF_FN VNDF_REAL vndf_impl_zero(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
 // before the product is formed, so that nothing overflows, not even under compiler options that know no infinity; and from
 // numbers far from subnormal ones, which are slow.
 VNDF_FN int vndf_impl_beyond(VNDF_REAL a, VNDF_REAL b) {
-    VNDF_REAL root = VNDF_R(1.0) / VNDF_IMPL_ROOT_LEAST;
+    VNDF_REAL root = VNDF_DIVIDE(VNDF_R(1.0), VNDF_IMPL_ROOT_LEAST);
     return vndf_impl_min(a, root) * (b * (VNDF_R(0.25) * VNDF_IMPL_ROOT_LEAST)) >= VNDF_R(0.25) * root;
 }
 // Their product, and the largest finite number where that is more.
@@ -57,9 +57,9 @@ VNDF_FN VNDF_REAL vndf_impl_bounded_product(VNDF_REAL a, VNDF_REAL b) {
 // a / b for a, b >= 0 in the same way, also for b = 0.
 VNDF_FN VNDF_REAL vndf_impl_bounded_quotient(VNDF_REAL a, VNDF_REAL b) {
     VNDF_REAL down = VNDF_R(2.3283064365386963e-10);  // 2^-32
-    int beyond =
-        a * down >= vndf_impl_min(b, VNDF_R(1.0)) * (down / VNDF_IMPL_ROOT_LEAST / VNDF_IMPL_ROOT_LEAST);
-    return beyond ? VNDF_REAL_MAX : a / b;
+    int beyond = a * down >= vndf_impl_min(b, VNDF_R(1.0)) *
+                                 VNDF_DIVIDE(VNDF_DIVIDE(down, VNDF_IMPL_ROOT_LEAST), VNDF_IMPL_ROOT_LEAST);
+    return beyond ? VNDF_REAL_MAX : VNDF_DIVIDE(a, b);
 }
 
 // The power of two that brings |x| in (0, 4] near 1, exactly: no square below under- or overflows.

@@ -84,7 +84,7 @@ VNDF_END
 #else
 #define VNDF_FMA(a, b, c) fma(a, b, c)
 #endif
-#define VNDF_SQRT(x) sqrt(x)
+#define VNDF_IMPL_SQRT(x) sqrt(x)
 // A function of the language's library, and the fast one of it for VNDF_MATH native.
 #define VNDF_STD(name) name
 #if VNDF_POLICY == 2
@@ -265,7 +265,7 @@ typedef struct vndf_double4 {
 #define VNDF_IMPL_EXACTLY(x) x
 #endif
 #define VNDF_FMA(a, b, c) VNDF_IMPL_EXACTLY(VNDF_STD(fma)(a, b, c))
-#define VNDF_SQRT(x) VNDF_IMPL_EXACTLY(VNDF_STD(sqrt)(x))
+#define VNDF_IMPL_SQRT(x) VNDF_IMPL_EXACTLY(VNDF_STD(sqrt)(x))
 #define VNDF_SIN_2PI(x) VNDF_STD(sin)(VNDF_R(2.0) * VNDF_PI * (x))
 
 VNDF_BEGIN
@@ -320,5 +320,7 @@ VNDF_END
 #endif
 
 #endif
+
+#include "divide.h"
 
 #endif

@@ -25,7 +25,8 @@ VNDF_FN struct vndf_impl_slope vndf_impl_ggx_slope(VNDF_REAL c, VNDF_REAL sine, 
     VNDF_REAL direct = VNDF_FMA(cosine, c, s * sine);
     // The denominator is 0 where nothing is visible: a normal on the horizon.
     VNDF_REAL other = VNDF_FMA(cosine, c, -s * sine);
-    VNDF_REAL conjugate = up * (VNDF_R(2.0) * c - up) / (other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
+    VNDF_REAL conjugate =
+        VNDF_DIVIDE(up * (VNDF_R(2.0) * c - up), other == VNDF_R(0.0) ? VNDF_R(1.0) : other);
     int opposite = (s < VNDF_R(0.0)) != (c < VNDF_R(0.0));
     slope.cos_psi = opposite ? conjugate : direct;
     return slope;

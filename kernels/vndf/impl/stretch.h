@@ -54,14 +54,15 @@ VNDF_FN VNDF_REAL vndf_impl_front_area(struct vndf_impl_view v) {
 }
 VNDF_FN VNDF_REAL vndf_impl_hidden_area(struct vndf_impl_view v) {
     VNDF_REAL sum = vndf_impl_front_area(v), l = vndf_impl_min(v.l, sum);
-    return l * (l / sum);
+    return l * VNDF_DIVIDE(l, sum);
 }
 
 // q of D = 1 / (pi alpha_x alpha_y q^2), for a normal (x, y, z). D takes it squared, so each quotient carries its
 // rounding error along.
 VNDF_FN VNDF_REAL vndf_impl_ggx_q(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, VNDF_REAL alpha_x,
                                   VNDF_REAL alpha_y) {
-    VNDF_REAL rcp_x = VNDF_R(1.0) / alpha_x, rcp_y = VNDF_R(1.0) / alpha_y, sx = x * rcp_x, sy = y * rcp_y;
+    VNDF_REAL rcp_x = VNDF_DIVIDE(VNDF_R(1.0), alpha_x), rcp_y = VNDF_DIVIDE(VNDF_R(1.0), alpha_y),
+              sx = x * rcp_x, sy = y * rcp_y;
     VNDF_REAL low_x = VNDF_FMA(-sx, alpha_x, x) * rcp_x, low_y = VNDF_FMA(-sy, alpha_y, y) * rcp_y;
     VNDF_REAL low = VNDF_R(2.0) * VNDF_FMA(sx, low_x, sy * low_y);
     return VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, VNDF_FMA(z, z, low)));
@@ -83,14 +84,14 @@ VNDF_FN struct vndf_impl_sample vndf_impl_ggx_unstretch(VNDF_REAL hx, VNDF_REAL 
     struct vndf_impl_sample m;
     VNDF_REAL gx = alpha_x * hx, gy = alpha_y * hy;
     VNDF_REAL length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, hz * hz));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     // length2 = 0 needs h = 0, the reflection of wo into -wo: no normal is defined, density 0.
     int defined = length2 > VNDF_R(0.0);
     m.x = defined ? gx * rcp : VNDF_R(0.0);
     m.y = defined ? gy * rcp : VNDF_R(0.0);
     m.z = defined ? hz * rcp : VNDF_R(1.0);
-    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = length2 / h2;
-    VNDF_REAL pdf = VNDF_1_PI * (weight * ratio * length) / (h2 * alpha_x * alpha_y);
+    VNDF_REAL h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz)), ratio = VNDF_DIVIDE(length2, h2);
+    VNDF_REAL pdf = VNDF_DIVIDE(VNDF_1_PI * (weight * ratio * length), h2 * alpha_x * alpha_y);
     m.pdf = defined && weight > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
     return m;
 }

@@ -25,7 +25,7 @@
      {"pointwise, maximum"}},
     {"Beckmann: the value of a reflection as if nothing shadowed",
      "beckmann.h",
-     "above ? seen / both : VNDF_R(1.0)",
+     "above ? VNDF_DIVIDE(seen, both) : VNDF_R(1.0)",
      "above ? VNDF_R(1.0) / wi.z : VNDF_R(1.0)",
      "vndf_beckmann_eval_pdf_lobe",
      {"pointwise, maximum"}},

@@ -25,7 +25,7 @@
      {"pointwise, maximum"}},
     {"an index turned over in Snell's law",
      "fresnel_dielectric.h",
-     "return vndf_impl_share(root / n.eta);",
+     "return vndf_impl_share(VNDF_DIVIDE(root, n.eta));",
      "return vndf_impl_share(root * n.eta);",
      "vndf_fresnel_cos_theta_t",
      {"pointwise, maximum"}},

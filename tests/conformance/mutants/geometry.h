@@ -1,7 +1,7 @@
 // Seeded mistakes in geometry.h: rows of Mutant (mutants.h).
 {"refraction with the inverse index",
  "geometry.h",
- "VNDF_REAL rcp_eta = VNDF_R(1.0) / (thick ? eta : VNDF_R(1.0));",
+ "VNDF_REAL rcp_eta = VNDF_DIVIDE(VNDF_R(1.0), thick ? eta : VNDF_R(1.0));",
  "VNDF_REAL rcp_eta = eta;",
  "vndf_refract",
  {"pointwise, maximum"}},

@@ -1,8 +1,8 @@
 // Seeded mistakes in impl/lobe.h and ggx_lobe.h: rows of Mutant (mutants.h).
 {"the half vector opposite to wo with the length that e has by rounding",
  "impl/lobe.h",
- "VNDF_REAL error = VNDF_FMA(ex - v.x,",
- "VNDF_REAL error = VNDF_R(0.0) * VNDF_FMA(ex - v.x,",
+ "VNDF_REAL error = VNDF_DIVIDE(VNDF_FMA(ex - v.x,",
+ "VNDF_REAL error = VNDF_R(0.0) * VNDF_DIVIDE(VNDF_FMA(ex - v.x,",
  "vndf_ggx_sample_wm_dupuy2023",
  {"normal faces wo"}},
     {"the correction of a length with the wrong sign",
