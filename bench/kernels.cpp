@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "runtime/sources.h"
+
 namespace vndf::bench {
 
 bool is_lobe(const std::string& scalar) {
@@ -44,6 +46,23 @@ std::string kernel_source(const std::string& name, const Function& function, con
 std::string cached_source(const Function& function, const std::string& callee) {
     return kernel_source("vndf_compute", function, callee, compute_groups, true) +
            kernel_source("vndf_cached", function, callee, cached_groups, false);
+}
+
+std::string foreign_source(const Function& function, runtime::Real real) {
+    std::string text = fmt::format("#define VNDF_REAL {}\n", to_string(real));
+    for (int n = 2; n <= 4; ++n) text += fmt::format("#define VNDF_REAL{0} {1}{0}\n", n, to_string(real));
+    text +=
+        "#define VNDF_MAKE2(x, y) ((VNDF_REAL2)(x, y))\n"
+        "#define VNDF_MAKE3(x, y, z) ((VNDF_REAL3)(x, y, z))\n"
+        "#define VNDF_BATCH_STORE(v, member) out_##v[i] = result member;\n";
+    for (const runtime::SourceFile& file : runtime::embedded_sources())
+        if (file.path == "kernels/batch/shapes.h") text += file.text;
+    text += cached_source(function, function.name);
+    // By names that are nobody's.
+    const std::string ours = "VNDF_", own = "CLVNDF_BENCH_";
+    for (std::size_t at = 0; (at = text.find(ours, at)) != text.npos; at += own.size())
+        text.replace(at, ours.size(), own);
+    return text;
 }
 
 std::string to_string(Copy copy) {

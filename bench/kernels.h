@@ -15,6 +15,9 @@ namespace vndf::bench {
 //   vndf_cached   arrays of cached_groups groups
 std::string cached_source(const Function& function, const std::string& callee);
 
+// The same of a function of somebody else, in a program that has none of the library's macros, or all of them.
+std::string foreign_source(const Function& function, runtime::Real real);
+
 // 0.6 MB at a local size of 64, 3 outputs and u. A prime, so that threads that take the groups in even portions do not
 // write to the same place at the same time.
 constexpr std::size_t compute_groups = 509;

@@ -26,6 +26,8 @@ struct Rung {
     std::string layout = {};  // of bench/layouts.cl, or "readme"; empty: an array for each scalar
     bool same_map = true;     // whether the function's reference is its own
     bool on_device = true;    // or the C++ build
+    const runtime::ProgramOptions* program =
+        nullptr;  // that holds a function of somebody else, in place of the library's
 
     // "strict/float"
     std::string key() const { return name + "/" + std::string(runtime::to_string(real)); }

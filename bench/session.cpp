@@ -52,6 +52,11 @@ std::vector<char> to_bytes(const std::vector<double>& values, Real real) {
 
 runtime::ProgramOptions program_options(const Function& function, const Rung& rung) {
     runtime::ProgramOptions options;
+    if (rung.program) {
+        options = *rung.program;
+        options.more_source += foreign_source(function, rung.real);
+        return options;
+    }
     options.functions = {function.name};
     options.root = rung.root;
     options.more_files = sources();

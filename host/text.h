@@ -17,6 +17,13 @@ inline std::string upper(std::string text) {
     return text;
 }
 
+// One word for a POSIX shell, whatever is in it.
+inline std::string quoted_for_shell(std::string_view text) {
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
 // What stands between the separators: one part more than there are of them, some of them empty.
 inline std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> parts;

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -28,6 +27,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
+#include "conformance/runs/user_kernel.h"
 #include "cli/streams.h"
 #include "error.h"
 
@@ -42,6 +42,7 @@ struct Bench {
     bool quick = false, advise = false, front = false, effects = false;
     double error = 0;
     bench::AlphaRange alpha;
+    conformance::UserOptions user;  // of --kernel
 };
 
 // Empty compiler caches for the drivers that have one on disk, so that the first build of a program is a cold one.
@@ -69,10 +70,6 @@ std::string read_file(const std::string& path) {
     while (const std::size_t count = std::fread(part, 1, sizeof part, file.get())) text.append(part, count);
     if (std::ferror(file.get())) fail();
     return text;
-}
-
-std::string in_folder(const std::string& folder, const char* name) {
-    return (std::filesystem::path(folder) / name).string();
 }
 
 // A file of the bench in this binary.
@@ -198,6 +195,37 @@ std::vector<Form> selected_forms(const runtime::Device& device, const Selection&
     return selected;
 }
 
+// The modes of a rung that another function has as well: wo in front of the surface where it makes a difference.
+std::vector<bench::Mode> shared_modes(const bench::Rung& rung) {
+    std::vector<bench::Mode> modes = rung.modes;
+    if (std::find(modes.begin(), modes.end(), bench::Mode::cached_front) != modes.end())
+        std::erase(modes, bench::Mode::cached);
+    return modes;
+}
+
+// A user's function beside the library's samplers of its density, or the function that it is to be.
+std::vector<Form> forms_beside(const conformance::UserKernel& user, const runtime::ProgramOptions& program,
+                               const runtime::Device& device) {
+    static const std::set<std::string> shown = {"strict", "builtin", "native", "published", "lean"};
+    const Function& own = user.function();
+    std::vector<Form> forms;
+    for (const Function& function : functions()) {
+        const bool same = is_plain_sampler(own) && is_plain_sampler(function) && function.lobe.empty() &&
+                          function.density == own.density && function.inputs == own.inputs;
+        if (!same && &function != user.ours()) continue;
+        for (bench::Rung rung : bench::rungs(function, device)) {
+            if (rung.real != Real::f32 || !shown.contains(rung.name)) continue;
+            rung.modes = shared_modes(rung);
+            forms.push_back({&function, std::move(rung)});
+        }
+    }
+    bench::Rung rung = forms.front().rung;
+    rung.name = "user", rung.callee = own.name, rung.program = &program;
+    rung.same_map = !own.model.empty();
+    forms.insert(forms.begin(), {&own, rung});
+    return forms;
+}
+
 // What is measured together. Each batch after the first has the same kernel once more, for the noise of ratios between them.
 std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
     constexpr std::size_t most = 60;  // programs; a driver may keep some megabytes of each
@@ -302,6 +330,11 @@ void run_effects(const Bench& options, Common& common) {
 void run_bench(Bench options, Common& common) {
     if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
     const Selection selection = parse_only(options.only);
+    std::optional<conformance::UserKernel> user;
+    if (!options.user.file.empty()) user.emplace(options.user);
+    if (user && !user->ours())
+        throw InputError(
+            "--as bsdf: clvndf bench times a sampler, a density or a term; name what it is to be");
     std::vector<NamedFile> outputs = {{"--json", options.json}};
     if (!options.report.empty())
         for (const char* name : {"bench.json", "index.html"})
@@ -326,7 +359,13 @@ void run_bench(Bench options, Common& common) {
     session_options.alpha = options.alpha;
     session_options.warm_builds = whole;
     if (!whole) session_options.judged_rows /= 4;
-    const std::vector<std::vector<Form>> batches = in_batches(selected_forms(device, selection, options));
+    runtime::ProgramOptions program;
+    if (user) {
+        user->evaluator(device);  // says what does not compile, and where
+        program = user->program();
+    }
+    const std::vector<std::vector<Form>> batches =
+        in_batches(user ? forms_beside(*user, program, device) : selected_forms(device, selection, options));
     bench::Measurer measurer(options.repetitions);
     bench::Surroundings surroundings;
     for (std::size_t i = 0; i < batches.size(); ++i) {
@@ -340,6 +379,10 @@ void run_bench(Bench options, Common& common) {
         }
         measurer.run(session.entries(), [&](double done) { progress(part + "measuring", done); });
         if (i == 0) surroundings.context = context(device, session, options);
+        if (user && i == 0)
+            for (const auto& [name, value] :
+                 {std::pair("kernel", options.user.file), {"kernel_options", options.user.options}})
+                surroundings.context.push_back({name, value});
         // Only the JSON holds the noise of lobes and the times of builds, which take seconds.
         if (i > 0 || !(json || report)) continue;
         progress("noise and builds", 0);
@@ -354,6 +397,7 @@ void run_bench(Bench options, Common& common) {
     if (table && options.advise)
         print_advice(bench::advise(measurement.results, demand), demand, measurement.spread);
     if (table && !options.advise) print_measurement(measurement);
+    if (table && user) print_beside(measurement, user->function().name);
     if (table && !baseline.empty())
         print_comparison(measurement.results, baseline, measurement.spread, options.compare);
     if (report) report->write(measurement.json);
@@ -404,6 +448,22 @@ void add_bench(CLI::App& app, Common& common) {
                      "make FOLDER/index.html, a page with plots, beside FOLDER/bench.json")
         ->type_name("FOLDER")
         ->excludes(effects);
+    CLI::Option* kernel =
+        command
+            ->add_option("--kernel", options->user.file,
+                         "time a function of this file of OpenCL C beside the library's, as clvndf "
+                         "check judges it")
+            ->type_name("FILE")
+            ->excludes(quick)
+            ->excludes(advise)
+            ->excludes(effects)
+            ->excludes(command->get_option("--only"));
+    CLI::Option* function =
+        command->add_option("--function", options->user.function, "its name there")->needs(kernel);
+    CLI::Option* as =
+        command->add_option("--as", options->user.as, "what it is to be, as for clvndf check")->needs(kernel);
+    kernel->needs(function)->needs(as);
+    command->add_option("--options", options->user.options, "build options for the file")->needs(kernel);
     command->add_option("--compare", options->compare, "show times relative to those of this JSON file")
         ->excludes(effects);
     command->callback([options, &common] {

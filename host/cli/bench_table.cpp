@@ -173,6 +173,27 @@ void print_measurement(const bench::Measurement& measurement) {
     print_sentences(rows, measurement.spread);
 }
 
+void print_beside(const bench::Measurement& measurement, const std::string& function) {
+    const auto in_cache = [](const Row& row) -> const Result* {
+        for (const char* mode : {"cached_front", "cached"})
+            if (const auto found = row.modes.find(mode); found != row.modes.end()) return found->second;
+        return nullptr;
+    };
+    const std::vector<Row> rows = rows_of(measurement.results);
+    const Row *own = nullptr, *best = nullptr;
+    for (const Row& row : rows) {
+        if (!in_cache(row)) continue;
+        if (row.function == function)
+            own = &row;
+        else if (row.rung == "strict/float" && (!best || in_cache(row)->best_ns < in_cache(*best)->best_ns))
+            best = &row;
+    }
+    if (!own || !best) return;
+    const double mine = in_cache(*own)->best_ns, fastest = in_cache(*best)->best_ns;
+    put("\n{} takes {:.2f} ns a sample in cache, {:.2f} times what {} {} takes ({:.2f}).\n", function, mine,
+        mine / fastest, best->function, best->rung, fastest);
+}
+
 void print_comparison(const std::vector<Result>& results, const std::vector<Result>& baseline,
                       const std::map<std::string, double>& spread, const std::string& baseline_name) {
     std::map<std::string, double> before;

@@ -6,23 +6,26 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/leftovers.h"
 #include "cli/options.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
 #include "conformance/judge/digest.h"
+#include "conformance/report/page.h"
 #include "conformance/runs/exhaustive.h"
 #include "conformance/runs/user_check.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "text.h"
 
 namespace vndf::cli {
 namespace {
 
 struct Check {
     Target target;
-    std::string only, json, junit;
-    bool quick = false;
+    std::string only, json, junit, report;
+    bool quick = false, all = false;
     std::size_t points = 0;
     bool digest = false;
     std::string on = "device";  // whose digest
@@ -117,13 +120,73 @@ void run_exhaustive(const Check& options, Common& common) {
     common.exit_status = !report.passed() ? 1 : interrupted ? 128 + SIGINT : 0;
 }
 
+// The options that name this user's function, for clvndf eval...
+std::string user_in_words(const conformance::UserOptions& user, const Function& function) {
+    std::string words = " --kernel " + quoted_for_shell(user.file) + " --as ";
+    words += function.name == user.function ? user.as : function.model;
+    return words + (user.options.empty() ? "" : " --options " + quoted_for_shell(user.options));
+}
+
+// ... and all of them, for clvndf check.
+std::string user_in_words(const conformance::UserOptions& user) {
+    const conformance::UserOptions usual;
+    std::string words = fmt::format(" --kernel {} --function {} --as {}", quoted_for_shell(user.file),
+                                    user.function, user.as);
+    if (!user.pdf.empty()) words += " --pdf " + user.pdf;
+    if (!user.sample.empty()) words += " --sample " + user.sample;
+    if (!user.options.empty()) words += " --options " + quoted_for_shell(user.options);
+    if (user.scope.domain != usual.scope.domain) words += " --domain sphere";
+    const auto &alpha = user.scope.alpha, &usual_alpha = usual.scope.alpha;
+    if (alpha.low != usual_alpha.low || alpha.high != usual_alpha.high)
+        words += fmt::format(" --alpha {}:{}", alpha.low, alpha.high);
+    return words + (user.scope.isotropic ? " --isotropic" : "");
+}
+
+// FOLDER/index.html.
+class Page {
+  public:
+    Page(const Check& options, const Common& common)
+        : options_(options),
+          common_(common),
+          folder_(options.report),
+          file_(in_folder(options.report, "index.html")) {}
+
+    void write(const conformance::Report& report) {
+        conformance::PageOptions page;
+        page.software = "clvndf " CLVNDF_VERSION;
+        page.all = options_.all;
+        const std::string target = options_.target.in_words();
+        page.evaluate = [=, &user = options_.user](const Function& f) {
+            return "clvndf eval " + f.name + (user.file.empty() ? "" : user_in_words(user, f)) + target;
+        };
+        std::string run = options_.quick ? " --quick" : "";
+        if (options_.points) run += fmt::format(" --points {}", options_.points);
+        if (common_.seed != Common().seed) run += fmt::format(" --seed {}", common_.seed);
+        page.check = [=, &user = options_.user](const Function& f) {
+            return "clvndf check" + (user.file.empty() ? " --only " + f.name : user_in_words(user)) + run +
+                   target;
+        };
+        file_.write(conformance::format_page(report, page));
+        file_.commit();
+        folder_.keep();
+    }
+
+  private:
+    const Check& options_;
+    const Common& common_;
+    NewFolder folder_;
+    OutputFile file_;
+};
+
 void run_check(const Check& options, Common& common) {
     if (options.exhaustive) return run_exhaustive(options, common);
     if (options.digest) return run_digest(options, common);
     std::optional<conformance::UserKernel> user;
     if (!options.user.file.empty()) user.emplace(options.user);
     const auto selected = user ? std::vector<const Function*>() : selected_by(options.only);
-    require_distinct({{"--json", options.json}, {"--junit", options.junit}});
+    std::vector<NamedFile> outputs = {{"--json", options.json}, {"--junit", options.junit}};
+    if (!options.report.empty()) outputs.push_back({"--report", in_folder(options.report, "index.html")});
+    require_distinct(outputs);
     const bool table = !is_standard_output(options.json) && !is_standard_output(options.junit);
     if (table) require_output();
     const runtime::Math math = options.target.math();
@@ -131,6 +194,8 @@ void run_check(const Check& options, Common& common) {
     std::optional<OutputFile> json, junit;
     if (!options.json.empty()) json.emplace(options.json);
     if (!options.junit.empty()) junit.emplace(options.junit);
+    std::optional<Page> page;
+    if (!options.report.empty()) page.emplace(options, common);
 
     const runtime::Device device = options.target.choose(common);
     runtime::ProgramOptions program;
@@ -144,6 +209,7 @@ void run_check(const Check& options, Common& common) {
     check.seed = common.seed;
     check.quick = options.quick;
     check.random_points = options.points;
+    if (page) check.pictures = options.all ? conformance::Pictures::all : conformance::Pictures::failed;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
     const conformance::Report report = user ? conformance::check_user_kernel(*user, evaluator, check)
                                             : conformance::check(evaluator, math, selected, check);
@@ -151,6 +217,7 @@ void run_check(const Check& options, Common& common) {
 
     if (json) json->write(conformance::format_json(report)), json->commit();
     if (junit) junit->write(conformance::format_junit(report)), junit->commit();
+    if (page) page->write(report);
     if (table) put(conformance::format_table(report));
     common.exit_status = report.passed() ? 0 : 1;
 }
@@ -212,6 +279,12 @@ void add_check(CLI::App& app, Common& common) {
         command->add_option("--json", options->json, "write the findings as JSON (- for standard output)");
     CLI::Option* junit = command->add_option("--junit", options->junit,
                                              "write the findings as JUnit XML (- for standard output)");
+    CLI::Option* page =
+        command
+            ->add_option("--report", options->report,
+                         "make FOLDER/index.html, a page: a row a function, and pictures of what fails")
+            ->type_name("FOLDER");
+    CLI::Option* all = command->add_flag("--all", options->all, "pictures of what passes, too")->needs(page);
     CLI::Option* exhaustive =
         command
             ->add_flag("--exhaustive", options->exhaustive,
@@ -220,7 +293,9 @@ void add_check(CLI::App& app, Common& common) {
             ->excludes(quick)
             ->excludes(points)
             ->excludes(json)
-            ->excludes(junit);
+            ->excludes(junit)
+            ->excludes(page)
+            ->excludes(all);
     CLI::Option* digest =
         command
             ->add_flag(
@@ -230,6 +305,8 @@ void add_check(CLI::App& app, Common& common) {
             ->excludes(points)
             ->excludes(json)
             ->excludes(junit)
+            ->excludes(page)
+            ->excludes(all)
             ->excludes(exhaustive);
     command->add_option("--on", options->on, "whose digests: device or host (the headers as C++)")
         ->needs(digest)

@@ -14,6 +14,7 @@
 #include "cli/options.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "text.h"
 
 namespace vndf::cli {
 
@@ -56,6 +57,15 @@ runtime::Device Target::choose(const Common& common) const {
     end_where_drivers_fail();
     if (!choice.note.empty() && !common.quiet) remark("clvndf: {}\n", choice.note);
     return choice.device;
+}
+
+std::string Target::in_words() const {
+    const Target usual;
+    std::string words;
+    if (!device.empty()) words += " --device " + quoted_for_shell(device);
+    if (math_name != usual.math_name) words += " --math " + math_name;
+    if (real_name != usual.real_name) words += " --real " + real_name;
+    return words;
 }
 
 namespace {

@@ -34,6 +34,8 @@ struct Target {
     runtime::Real real() const;
     // The device asked for; unless quiet, stderr says which one was taken of several.
     runtime::Device choose(const Common& common) const;
+    // " --device 'pocl' --math builtin": for a shell, what is not the default.
+    std::string in_words() const;
 };
 
 void add_devices(CLI::App& app, Common& common);

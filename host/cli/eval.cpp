@@ -1,12 +1,14 @@
 // clvndf eval
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/commands.h"
 #include "cli/csv.h"
 #include "cli/output_file.h"
+#include "conformance/runs/user_kernel.h"
 #include "error.h"
 #include "runtime/device_evaluator.h"
 
@@ -20,6 +22,7 @@ constexpr std::size_t chunk_rows = 1 << 16;
 
 struct Eval {
     Target target;
+    conformance::UserOptions user;  // of --kernel
     std::string name, on = "device", input = "-", output = "-";
     bool hex = false;
 };
@@ -41,12 +44,16 @@ const Function& named_function(const std::string& name) {
 }
 
 // What evaluates, once the options are found good; made late, because a program takes its time to build.
-std::function<std::unique_ptr<Evaluator>()> evaluator_maker(const Eval& eval, const Common& common) {
+std::function<std::unique_ptr<Evaluator>()> evaluator_maker(const Eval& eval,
+                                                            const conformance::UserKernel* user,
+                                                            const Common& common) {
     const runtime::Math math = eval.target.math();
     const Real real = eval.target.real();
     if (eval.on == "device") {
         const runtime::Device device = eval.target.choose(common);
         runtime::require_real(device, real);
+        if (user)
+            return [=] { return std::make_unique<runtime::DeviceEvaluator>(user->evaluator(device, real)); };
         runtime::ProgramOptions options;
         options.functions = {eval.name};
         return [=] { return std::make_unique<runtime::DeviceEvaluator>(device, math, real, options); };
@@ -75,9 +82,11 @@ void append_rows(std::string& text, const std::vector<std::vector<Out>>& columns
 // In and Out: the evaluator's real types.
 template <class In, class Out>
 void stream(const Eval& eval, const Common& common) {
-    const Function& function = named_function(eval.name);
-    require_distinct({{"--output", eval.output}}, {{"--input", eval.input}});
-    const auto make_evaluator = evaluator_maker(eval, common);
+    std::optional<conformance::UserKernel> user;
+    if (!eval.user.file.empty()) user.emplace(eval.user);
+    const Function& function = user ? user->function() : named_function(eval.name);
+    require_distinct({{"--output", eval.output}}, {{"--input", eval.input}, {"--kernel", eval.user.file}});
+    const auto make_evaluator = evaluator_maker(eval, user ? &*user : nullptr, common);
     OutputFile output(eval.output);
     TableReader<In> reader(eval.input, function.inputs, function.name + " takes");
     const std::unique_ptr<Evaluator> evaluator = make_evaluator();
@@ -124,7 +133,22 @@ void add_eval(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_option("--output", eval->output, "CSV to write, or -")->capture_default_str();
     command->add_flag("--hex", eval->hex, "C99 hex numbers in the output");
-    command->callback([eval, &common] { common.action = [eval, &common] { run(*eval, common); }; });
+    CLI::Option* kernel =
+        command
+            ->add_option("--kernel", eval->user.file,
+                         "evaluate a function of this file of OpenCL C, as clvndf check does")
+            ->type_name("FILE")
+            ->excludes(command->get_option("--on"))
+            ->excludes(command->get_option("--math"));
+    CLI::Option* as =
+        command->add_option("--as", eval->user.as, "the function of clvndf list whose arguments it has");
+    as->needs(kernel);
+    kernel->needs(as);
+    command->add_option("--options", eval->user.options, "build options for the file")->needs(kernel);
+    command->callback([eval, &common] {
+        eval->user.function = eval->name;
+        common.action = [eval, &common] { run(*eval, common); };
+    });
 }
 
 }  // namespace vndf::cli

@@ -172,6 +172,10 @@ void OutputFile::write_in_place() {
     if (error != 0) fail(error);
 }
 
+std::string in_folder(const std::string& folder, const char* name) {
+    return (fs::path(folder) / name).string();
+}
+
 bool is_standard_output(const std::string& path) {
     return named_descriptor(path, STDOUT_FILENO) == STDOUT_FILENO;
 }

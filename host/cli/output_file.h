@@ -37,6 +37,9 @@ class OutputFile {
     int descriptor_ = -1;
 };
 
+// The path of a file in a folder.
+std::string in_folder(const std::string& folder, const char* name);
+
 // Whether an output of this name is the standard output.
 bool is_standard_output(const std::string& path);
 

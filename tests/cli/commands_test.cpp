@@ -71,9 +71,10 @@ TEST_CASE("every command runs to its end with every option") {
         "eval --help",
         "eval vndf_reflect --input in --output device.csv --device \"$device\" --math builtin --real float",
         "eval vndf_reflect --input in --output host.csv --on host --hex",
+        "eval my_sample --kernel \"$judge/right.cl\" --as ggx_sample_wm --options -DX --input lobe",
         "check --help",
         "check --only vndf_reflect --quick --device \"$device\" --math strict --real float --points 1024 "
-        "--json check.json --junit check.xml",
+        "--json check.json --junit check.xml --report checked --all",
         "check --only vndf_reflect --quick --digest --on host",
         "check --kernel \"$judge/right.cl\" --function my_sample --as ggx_sample_wm --pdf my_pdf --quick --points "
         "1024 --domain front --alpha 0.2:0.5 --isotropic --options -DX",
@@ -108,11 +109,13 @@ TEST_CASE("every command runs to its end with every option") {
              // Its own results, and the committed ones.
              "bench --only vndf_reflect/cpp --repetitions 3 --compare bench.json",
              "bench --only dupuy2023/strict --quick --repetitions 3 --alpha 0.1:1",
+             "bench --kernel \"$judge/right.cl\" --function my_pdf --as ggx_pdf_wm --options -DX --repetitions 3",
              "bench --only dupuy2023/lean --advise --error 1e9 --domain front --repetitions 3",
              "bench --only vndf_reflect/cpp --repetitions 3 --compare \"$committed\""});
     }
     const Folder folder;
     folder.write("in", reflect_row);
+    folder.write("lobe", "wo_x,wo_y,wo_z,alpha_x,alpha_y,u1,u2\n0.6,0,0.8,0.5,0.1,0.25,0.75\n");
     folder.write("plain.gltf", triangle_file().gltf());
     folder.write("busy.glb", busy_file().glb());
     folder.write("env.hdr",
@@ -139,8 +142,9 @@ TEST_CASE("every command runs to its end with every option") {
         INFO(option << " is reached by none of the lines above: add it");
         CHECK(reached.contains(option));
     }
-    for (const std::string file : {"device.csv", "host.csv", "check.json", "check.xml", "policies.json",
-                                   "emitted.h", "material.h", "kept/energy-beckmann-separable", "measured.h"})
+    for (const std::string file :
+         {"device.csv", "host.csv", "check.json", "check.xml", "checked/index.html", "policies.json",
+          "emitted.h", "material.h", "kept/energy-beckmann-separable", "measured.h"})
         CHECK_FALSE(folder.read(file).empty());
     CHECK(folder.read("again.h") == folder.read("energy.h"));
     if (has_bench()) CHECK(folder.read("report/bench.json") == folder.read("bench.json"));

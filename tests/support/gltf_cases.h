@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "png.h"
 #include "support/gltf_file.h"
-#include "support/png_file.h"
 
 namespace vndf::test {
 

@@ -95,6 +95,8 @@ inline const std::map<std::string, Values>& values() {
         {"--kernel", {{"a.cl", "a b.cl"}, {""}}},
         {"--function", {{"f", "my_sample"}, {""}}},
         {"check --as", {{"ggx_sample_wm", "bsdf"}, {""}}},
+        {"eval --as", {{"ggx_sample_wm", "ggx_pdf_wm"}, {""}}},
+        {"bench --as", {{"ggx_sample_wm", "ggx_pdf_wm"}, {""}}},
         {"--pdf", {{"f", "my_pdf"}, {""}}},
         {"--sample", {{"f", "my_sample"}, {""}}},
         {"--options", {{"-cl-fast-relaxed-math -DX=1", "-DX"}, {""}}},

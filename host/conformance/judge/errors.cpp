@@ -58,7 +58,8 @@ Finding make_finding(std::string check, double figure, double limit, std::string
     if (errors.count() == 0) return finding;
     finding.detail = errors.summary();
     finding.p50 = errors.percentile(50), finding.p99 = errors.percentile(99), finding.max = errors.max();
-    finding.worst = hex_row(function, table.row(errors.worst_row()));
+    finding.row = table.row(errors.worst_row());
+    finding.worst = hex_row(function, finding.row);
     return finding;
 }
 

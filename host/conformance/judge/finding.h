@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace vndf::conformance {
 
@@ -24,6 +25,8 @@ struct Finding {
     std::string worst;      // worst input row in hex floats, "wo_x=0x1.8p-1 ..."
     std::size_t count = 0;  // inputs or tests behind the figure
     double p50 = 0, p99 = 0, max = 0;  // of the errors behind a pointwise figure
+    // Of a pointwise figure: the worst inputs, and what the function and the reference make of them (if asked for).
+    std::vector<double> row, result, exact;
 
     bool passed() const;
     // How near to the limit: above 1 is a failure. Comparable between kinds of figures.

@@ -13,7 +13,8 @@
 namespace vndf::conformance {
 namespace {
 
-constexpr std::size_t pivot_cells = 32, ks_bins = std::size_t{1} << 16, angle_bins = 32;
+constexpr std::size_t pivot_cells = LobePicture::cells, angle_bins = LobePicture::cells;
+constexpr std::size_t ks_bins = std::size_t{1} << 16;
 constexpr std::size_t pool_below = 16;      // expectation per cell: at levels of 1e-10 more than the usual 5
 constexpr std::size_t histogram_share = 4;  // one of so many samples, in whole chunks
 constexpr std::size_t means = reference::Moments::count + 3;
@@ -131,6 +132,37 @@ Tally count(const reference::Distribution& distribution, const reference::Bins& 
     return tally;
 }
 
+std::vector<MeanTest> test_means(const Function& sampler, const Expectation& exact, const Tally& tally,
+                                 double samples, Real real, double level, double bias) {
+    static const char* const names[] = {"x",  "y",  "z",  "xx",          "yy",          "zz",         "xy",
+                                        "xz", "yz", "wo", "stretched x", "stretched y", "stretched z"};
+    std::vector<MeanTest> tests;
+    for (std::size_t k = 0; k < tests_per_lobe(sampler) - 4; ++k) {
+        const double deviation = std::sqrt(exact.variance[k]);
+        const double rms = std::sqrt(exact.variance[k] + exact.mean[k] * exact.mean[k]);
+        const double range = 1 + std::abs(exact.mean[k]);
+        tests.push_back({names[k], tally.sums[k] / samples - exact.mean[k],
+                         mean_tolerance(deviation, range, samples, level) + bias * deviation +
+                             (2 * epsilon(real) + 1e-8) * rms,
+                         deviation / std::sqrt(samples)});
+    }
+    return tests;
+}
+
+// The first that is no number, or the farthest from what is expected.
+LobeTest worst_of(const std::vector<MeanTest>& means) {
+    LobeTest worst{"means", false, 0, {}};
+    for (const MeanTest& mean : means) {
+        const double figure = std::abs(mean.difference) / mean.tolerance;
+        if (!(figure > worst.figure) && !std::isnan(figure)) continue;
+        worst.figure = figure;
+        worst.detail =
+            fmt::format("E[{}] off by {:.3g}, tolerance {:.3g}", mean.name, mean.difference, mean.tolerance);
+        if (std::isnan(figure)) break;
+    }
+    return worst;
+}
+
 }  // namespace
 
 std::size_t tests_per_lobe(const Function& sampler) {
@@ -139,7 +171,8 @@ std::size_t tests_per_lobe(const Function& sampler) {
 
 template <class T>
 std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
-                                const T* x, const T* y, const T* z, double level, const KnownBias& bias) {
+                                const T* x, const T* y, const T* z, double level, const KnownBias& bias,
+                                LobePicture* picture) {
     const Real real = sizeof(T) == sizeof(float) ? Real::f32 : Real::f64;
     const reference::Distribution distribution(sampler.density, RowReader(sampler).lobe(row.data()),
                                                precision(real));
@@ -163,7 +196,8 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
     // than the tests resolve.
     if (distribution.pivot_rounding() * epsilon(real) / epsilon(Real::f32) < 1e-3) {
         constexpr std::size_t cells = pivot_cells * pivot_cells;
-        add_chi_square("chi2 of the pivots", tally.pivots, std::vector<double>(cells, samples / cells));
+        const std::vector<double> uniform(cells, samples / cells);
+        add_chi_square("chi2 of the pivots", tally.pivots, uniform);
         for (int i = 0; i < 2; ++i) {
             const Kolmogorov ks = kolmogorov(tally.pivot[i]);
             tests.push_back({i ? "KS of pivot 2" : "KS of pivot 1", true,
@@ -174,36 +208,25 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
         for (double& probability : expected) probability *= samples / histogram_share;
         expected.push_back(0);
         add_chi_square("chi2 of the directions", tally.histogram, expected);
-    }
-
-    const Expectation exact = expectation(distribution, quantities);
-    static const char* const names[] = {"x",  "y",  "z",  "xx",          "yy",          "zz",         "xy",
-                                        "xz", "yz", "wo", "stretched x", "stretched y", "stretched z"};
-    LobeTest worst{"means", false, 0, {}};
-    for (std::size_t k = 0; k < tests_per_lobe(sampler) - 4; ++k) {
-        const double deviation = std::sqrt(exact.variance[k]);
-        const double rms = std::sqrt(exact.variance[k] + exact.mean[k] * exact.mean[k]);
-        const double range = 1 + std::abs(exact.mean[k]);
-        const double tolerance = mean_tolerance(deviation, range, samples, level) + bias.mean * deviation +
-                                 (2 * epsilon(real) + 1e-8) * rms;
-        const double difference = tally.sums[k] / samples - exact.mean[k];
-        const double figure = std::abs(difference) / tolerance;
-        if (figure > worst.figure || std::isnan(figure)) {
-            worst.figure = figure;
-            worst.detail =
-                fmt::format("E[{}] off by {:.3g}, tolerance {:.3g}", names[k], difference, tolerance);
-            if (std::isnan(figure)) break;
+        if (picture) {
+            picture->pivots = {tally.pivots, uniform};
+            picture->directions = {tally.histogram, expected};
+            picture->bins = bins;
         }
     }
-    tests.push_back(worst);
+
+    const std::vector<MeanTest> averages =
+        test_means(sampler, expectation(distribution, quantities), tally, samples, real, level, bias.mean);
+    tests.push_back(worst_of(averages));
+    if (picture) picture->row = row, picture->means = averages, picture->tests = tests;
     return tests;
 }
 
 template std::vector<LobeTest> test_lobe<float>(const Function&, const std::vector<double>&, std::size_t,
                                                 const float*, const float*, const float*, double,
-                                                const KnownBias&);
+                                                const KnownBias&, LobePicture*);
 template std::vector<LobeTest> test_lobe<double>(const Function&, const std::vector<double>&, std::size_t,
                                                  const double*, const double*, const double*, double,
-                                                 const KnownBias&);
+                                                 const KnownBias&, LobePicture*);
 
 }  // namespace vndf::conformance

@@ -6,6 +6,7 @@
 
 #include "conformance/judge/errors.h"
 #include "conformance/judge/statistics.h"
+#include "reference/distribution.h"
 
 namespace vndf::conformance {
 
@@ -24,14 +25,41 @@ struct LobeTest {
     std::string detail;
 };
 
+// Counts in cells beside what is expected there, row by row.
+struct CellCounts {
+    std::vector<std::uint32_t> observed;
+    std::vector<double> expected;
+};
+
+// A mean against its expectation.
+struct MeanTest {
+    const char* name;  // "x", "stretched z", ...
+    double difference = 0, tolerance = 0;
+    double error = 0;  // the standard error of the mean
+};
+
+// What the tests of a lobe looked at, to be drawn.
+struct LobePicture {
+    static constexpr std::size_t cells = 32;  // of a histogram, either way
+
+    std::vector<double> row;  // the sampler's inputs; u is not read
+    // Empty where the type cannot tell directions of the lobe apart.
+    CellCounts pivots;      // [pivot 1][pivot 2]
+    CellCounts directions;  // [theta][phi] between the edges of `bins`, and one more for those outside
+    reference::Bins bins;
+    std::vector<MeanTest> means;
+    std::vector<LobeTest> tests;
+};
+
 // The tests that a lobe of this sampler takes, judged or not: the run's count for Sidak.
 std::size_t tests_per_lobe(const Function& sampler);
 
 // The n directions (x, y, z), drawn for the sampler's inputs `row` (u is not read), against the reference: the
 // pivots (32 x 32 chi-squared, two Kolmogorov-Smirnov), the histogram of the first quarter of the directions, first
-// and second moments. T is float or double, `level` the rate of false alarms of one test.
+// and second moments. T is float or double, `level` the rate of false alarms of one test. `picture` takes what they looked at.
 template <class T>
 std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
-                                const T* x, const T* y, const T* z, double level, const KnownBias& bias);
+                                const T* x, const T* y, const T* z, double level, const KnownBias& bias,
+                                LobePicture* picture = nullptr);
 
 }  // namespace vndf::conformance

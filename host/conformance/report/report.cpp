@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "conformance/report/markup.h"
+
 namespace vndf::conformance {
 
 Verdict FunctionReport::verdict() const {
@@ -158,48 +160,24 @@ std::string format_json(const Report& report) {
     return document.dump(2) + "\n";
 }
 
-namespace {
-
-// Text as XML character data or attribute value; control characters, which XML 1.0 forbids, become spaces.
-std::string xml(const std::string& text) {
-    std::string out;
-    for (const char c : text) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-        }
-    return out;
-}
-
-}  // namespace
-
 std::string format_junit(const Report& report) {
     std::size_t tests = 0, failures = 0;
     std::string cases;
     for (const FunctionReport& f : report.functions)
         for (const Finding& finding : f.findings) {
             ++tests;
-            cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", xml(f.function->name),
-                                 xml(finding.check));
-            const std::string text = xml(figure_text(finding) + "\n" + finding.detail + "\n" + finding.worst);
+            cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", escaped(f.function->name),
+                                 escaped(finding.check));
+            const std::string text =
+                escaped(figure_text(finding) + "\n" + finding.detail + "\n" + finding.worst);
             if (finding.passed() || finding.concern != Concern::wrong) {
                 const std::string word = finding.passed() ? "" : to_string(finding.concern) + ": ";
                 cases += fmt::format("<system-out>{}{}</system-out>", finding.biased ? "known bias: " : word,
                                      text);
             } else {
                 ++failures;
-                cases += fmt::format("<failure message=\"{}\">{}</failure>", xml(figure_text(finding)), text);
+                cases +=
+                    fmt::format("<failure message=\"{}\">{}</failure>", escaped(figure_text(finding)), text);
             }
             cases += "</testcase>\n";
         }
@@ -208,7 +186,7 @@ std::string format_junit(const Report& report) {
         "<testsuites name=\"clvndf check\" tests=\"{0}\" failures=\"{1}\" time=\"{2:.3f}\">\n"
         "  <testsuite name=\"{3}\" tests=\"{0}\" failures=\"{1}\" time=\"{2:.3f}\">\n{4}  </testsuite>\n"
         "</testsuites>\n",
-        tests, failures, report.seconds, xml(report.math + " " + report.real + " on " + report.device),
+        tests, failures, report.seconds, escaped(report.math + " " + report.real + " on " + report.device),
         cases);
 }
 

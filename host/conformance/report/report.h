@@ -7,6 +7,7 @@
 
 #include "conformance/judge/digest.h"
 #include "conformance/judge/finding.h"
+#include "conformance/judge/lobes.h"
 #include "registry.h"
 
 namespace vndf::conformance {
@@ -18,6 +19,7 @@ struct FunctionReport {
     std::vector<Finding> findings;
     // Of a user's function: the likeliest known mistake and what speaks for it, and what was not judged; or empty.
     std::string diagnosis = {}, not_judged = {};
+    std::vector<LobePicture> pictures = {};  // of the lobes that CheckOptions asks for
 
     Verdict verdict() const;
     const Finding* worst() const;  // the finding of greatest severity; nullptr if there is none

@@ -10,6 +10,7 @@
 #include "conformance/judge/digest.h"
 #include "conformance/judge/extremes.h"
 #include "conformance/inputs/grids.h"
+#include "conformance/inputs/rows.h"
 #include "conformance/judge/known_bias.h"
 #include "conformance/judge/lobes.h"
 #include "parallel.h"
@@ -75,7 +76,9 @@ class WorstLobes {
   public:
     WorstLobes(const Function& sampler, double level) : sampler_(sampler), level_(level) {}
 
-    void add(const std::vector<LobeTest>& tests, const std::vector<double>& row) {
+    // Returns whether the lobe passes.
+    bool add(const std::vector<LobeTest>& tests, const std::vector<double>& row) {
+        bool passed = true;
         for (const LobeTest& test : tests) {
             Finding finding;
             finding.check = test.name, finding.figure = test.figure, finding.detail = test.detail;
@@ -83,11 +86,13 @@ class WorstLobes {
             finding.limit = test.is_p ? level_ : 1;
             finding.unit = test.is_p ? "probability" : "tolerances";
             finding.worst = hex_row(sampler_, row);
+            passed = passed && finding.passed();
             const auto [place, added] = findings_.try_emplace(test.name, finding);
             const std::size_t count = place->second.count + 1;
             if (!added && finding.severity() > place->second.severity()) place->second = finding;
             place->second.count = added ? 1 : count;
         }
+        return passed;
     }
     void append_to(std::vector<Finding>& findings) const {
         for (const auto& [_, finding] : findings_) findings.push_back(finding);
@@ -132,10 +137,14 @@ class Run {
         const auto start = std::chrono::steady_clock::now();
         for (const Function* function : selected) {
             options_.progress(function->name, work_done_ / work_total_);
-            report_.functions.push_back({function, findings(*function)});
+            FunctionReport& judged = report_.functions.emplace_back();
+            judged.function = function;
+            find(judged);
             if (!options_.scope)
                 for (Finding& finding : check_extremes(evaluator_, *function, pointwise_))
-                    report_.functions.back().findings.push_back(std::move(finding));
+                    judged.findings.push_back(std::move(finding));
+            for (Finding& finding : judged.findings)
+                if (is_drawn(finding.passed())) add_values(*function, finding);
             work_done_ += work(*function);
         }
         if (math_ == runtime::Math::strict && !options_.scope) compare_bits(selected);
@@ -157,34 +166,49 @@ class Run {
         report_.bits = compare_with_host(evaluator_, selected, bits);
     }
 
-    std::vector<Finding> findings(const Function& function) {
-        std::vector<Finding> all = options_.scope ? check_user(evaluator_, function, pointwise_)
-                                                  : check_pointwise(evaluator_, function, pointwise_);
+    bool is_drawn(bool passed) const {
+        return options_.pictures == Pictures::all || (options_.pictures == Pictures::failed && !passed);
+    }
+
+    // What the function and the reference make of the finding's worst inputs.
+    void add_values(const Function& function, Finding& finding) {
+        if (finding.row.empty()) return;
+        Table inputs;
+        for (const double x : finding.row) inputs.columns.push_back({x});
+        for (const auto& column : evaluate(evaluator_, function, inputs))
+            finding.result.push_back(column.front());
+        if (function.model.empty()) return;  // of a distribution, which has many maps
+        finding.exact.resize(function.outputs.size());
+        reference::find_evaluation<double>(function.model)(finding.row.data(), finding.exact.data(),
+                                                           precision(evaluator_.input_real()));
+    }
+
+    void find(FunctionReport& judged) {
+        const Function& function = *judged.function;
+        judged.findings = options_.scope ? check_user(evaluator_, function, pointwise_)
+                                         : check_pointwise(evaluator_, function, pointwise_);
         const auto add = [&](std::vector<Finding> more) {
-            std::move(more.begin(), more.end(), std::back_inserter(all));
+            std::move(more.begin(), more.end(), std::back_inserter(judged.findings));
         };
         if (function.kind == Kind::density) add(check_normalisation(evaluator_, function, pointwise_));
         if (is_plain_sampler(function)) {
             add(measure_bias(evaluator_, function));
-            evaluator_.input_real() == Real::f32 ? statistics<float>(function, all)
-                                                 : statistics<double>(function, all);
+            evaluator_.input_real() == Real::f32 ? statistics<float>(judged) : statistics<double>(judged);
         }
-        return all;
     }
 
     template <class T>
-    void statistics(const Function& sampler, std::vector<Finding>& all) {
+    void statistics(FunctionReport& judged) {
+        const Function& sampler = *judged.function;
         const KnownBias bias = known_bias(sampler);
         Drawer<T> drawer(evaluator_, sampler, options_.seed, report_.samples);
         WorstLobes worst(sampler, report_.level);
         // A thread for each lobe drawn, as many at once as the host has.
-        struct Judging {
-            std::vector<double> row;
-            std::future<std::vector<LobeTest>> tests;
-        };
-        std::deque<Judging> judging;
+        std::deque<std::future<LobePicture>> judging;
         const auto finish_first = [&] {
-            worst.add(judging.front().tests.get(), judging.front().row);
+            LobePicture picture = judging.front().get();
+            if (is_drawn(worst.add(picture.tests, picture.row)))
+                judged.pictures.push_back(std::move(picture));
             judging.pop_front();
         };
         // Numbered by function and lobe, so that --only repeats a run's samples.
@@ -194,15 +218,16 @@ class Run {
         for (const Point& lobe : lobes(sampler, pointwise_)) {
             options_.progress(sampler.name, (work_done_ + ++done) / work_total_);
             Batch<T> batch = drawer.draw(lobe, stream++);
-            std::vector<double> row = batch.row;
             if (judging.size() >= thread_count()) finish_first();
-            judging.push_back({std::move(row), std::async(std::launch::async, [&, batch = std::move(batch)] {
-                                   return test_lobe(sampler, batch.row, batch.x.size(), batch.x.data(),
-                                                    batch.y.data(), batch.z.data(), report_.level, bias);
-                               })});
+            judging.push_back(std::async(std::launch::async, [&, batch = std::move(batch)] {
+                LobePicture picture;
+                test_lobe(sampler, batch.row, batch.x.size(), batch.x.data(), batch.y.data(), batch.z.data(),
+                          report_.level, bias, &picture);
+                return picture;
+            }));
         }
         while (!judging.empty()) finish_first();
-        worst.append_to(all);
+        worst.append_to(judged.findings);
     }
 
     runtime::DeviceEvaluator& evaluator_;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace vndf::test {
+namespace vndf {
 
 enum class PngColour { grey = 0, rgb = 2, palette = 3, grey_alpha = 4, rgba = 6 };
 
@@ -55,4 +55,4 @@ inline std::string png_file(std::uint32_t width, std::uint32_t height, int depth
            png_chunk("IEND", "");
 }
 
-}  // namespace vndf::test
+}  // namespace vndf
