@@ -30,6 +30,7 @@ EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
 REFRACTION = ROOT / "bench/results/refraction.json"
 MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
+POWER = ROOT / "tests/data/power.json"
 MITSUBA_GLTF = ROOT / "bench/results/peers-mitsuba-gltf-3.9.json"
 
 
@@ -319,6 +320,15 @@ def refraction():
                    *(", ".join(f"{row[light][way]:.2g}" for way in ("after", "before", "cone")) for light in ("white", "smooth")))
 
 
+def power():
+    measured = json.loads(POWER.read_text("utf-8"))
+    runs = [f"{name}: {run['lobes']} lobes of {run['samples']:,} samples" for name, run in
+            (("`--quick`", measured["runs"]["quick"]), ("in full", measured["runs"]["full"]))]
+    head = [f"mistake: x that {measured['noticed']} of {measured['trials']} runs notice", *runs]
+    return table(head, [(row["mistake"], *(f"{100 * row[run]:.2g} %" for run in ("quick", "full")))
+                        for row in measured["mistakes"]])
+
+
 STREAM, CACHED, COMPUTE, PUBLISHED = (
     ("strict/float", "stream"), ("strict/float", "cached"), ("strict/float", "compute"), ("published/float", "stream"))
 TABLES = {
@@ -349,6 +359,7 @@ TABLES = {
     "mitsuba_gltf": lambda build: table(["scene", "shows", "difference beyond noise", "mean over Mitsuba's", "noise, ours and Mitsuba's"],
                                         mitsuba_gltf()),
     "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
+    "power": lambda build: power(),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),
     "peer_densities": lambda build: peer_errors(peer_densities),

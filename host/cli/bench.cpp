@@ -383,8 +383,9 @@ void run_bench(Bench options, Common& common) {
             for (const auto& [name, value] :
                  {std::pair("kernel", options.user.file), {"kernel_options", options.user.options}})
                 surroundings.context.push_back({name, value});
-        // Only the JSON holds the noise of lobes and the times of builds, which take seconds.
-        if (i > 0 || !(json || report)) continue;
+        // Only the JSON holds the noise of lobes and the times of builds, which take seconds; beside a user's function
+        // they say nothing.
+        if (i > 0 || user || !(json || report)) continue;
         progress("noise and builds", 0);
         surroundings.lobes = bench::lobe_noise();
         surroundings.builds = bench::build_times(session.program());
@@ -457,7 +458,8 @@ void add_bench(CLI::App& app, Common& common) {
             ->excludes(quick)
             ->excludes(advise)
             ->excludes(effects)
-            ->excludes(command->get_option("--only"));
+            ->excludes(command->get_option("--only"))
+            ->excludes(command->get_option("--report"));
     CLI::Option* function =
         command->add_option("--function", options->user.function, "its name there")->needs(kernel);
     CLI::Option* as =

@@ -1,5 +1,6 @@
 // Every command with every option, and what all commands have in common: one line for bad input, standard streams that
 // cannot be written, nothing left behind.
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -173,6 +174,41 @@ TEST_CASE("bench advises the cheapest form within an error, and refuses demands 
         CHECK(std::count(said.begin(), said.end(), '\n') == 1);
         CHECK(folder.read("out").empty());
     }
+}
+
+TEST_CASE("bench times a user's function beside ours, built with options of its own") {
+    if (!has_bench()) return;
+    const Folder folder;
+    folder.write("mine.cl", "float3 mine(float3 wo, float3 wm) { return SIGN dot(wo, wm) * wm - wo; }\n");
+    const std::string bench = "\"$clvndf\" bench --repetitions 3 --kernel mine.cl --as vndf_reflect ";
+    REQUIRE(shell(folder, bench + "--function mine --options '-DSIGN=2*' --json a.json >out 2>err") == 0);
+    const std::string table = folder.read("out"), json = folder.read("a.json");
+    CAPTURE(table);
+    const std::regex sentence(
+        "mine takes [0-9.]+ ns a sample in cache, [0-9.]+ times what vndf_reflect strict/float takes");
+    CHECK(std::regex_search(table, sentence));
+    for (const std::string part :
+         {"\"mine/user/float/stream\"", "\"mine/user/float/cached\"", "\"vndf_reflect/strict/float/cached\"",
+          "\"kernel_options\": \"-DSIGN=2*\""})
+        CHECK_THAT(json, ContainsSubstring(part));
+    // What it computes is compared as well: this one is wrong.
+    REQUIRE(shell(folder, bench + "--function mine --options '-DSIGN=3*' --json b.json >out 2>err") == 0);
+    const auto error = [&](const std::string& file) {
+        const auto data = nlohmann::json::parse(folder.read(file));
+        for (const auto& entry : data["benchmarks"])
+            if (entry["run_name"] == "mine/user/float/stream" && entry.contains("err_p99"))
+                return entry["err_p99"].get<double>();
+        return -1.0;
+    };
+    CHECK((error("a.json") >= 0 && error("a.json") < 100));
+    CHECK(error("b.json") > 1e5);
+    for (const auto& [arguments, said] :
+         {std::pair("--function mine", "SIGN"),
+          {"--function other --options '-DSIGN=2*'", "no function 'other'"}}) {
+        CHECK(shell(folder, bench + arguments + " >out 2>err") == 2);
+        CHECK_THAT(folder.read("err"), ContainsSubstring(said));
+    }
+    require_refusal(clvndf("bench --kernel a --function f --as bsdf"), "bsdf");
 }
 
 TEST_CASE("a selection of nothing is refused, with what there is to select") {
