@@ -110,11 +110,11 @@ struct vndf_ggx_conic2026 {
     VNDF_REAL twice_sigma;                   // of sigma_vis
     VNDF_REAL spread, rcp_spread;            // the squared radius of the disk
     VNDF_REAL x, y, z, length2;              // v and its square, mu = 1
-    VNDF_REAL e, f;                          // (e, f, 1) is parallel to e0
+    VNDF_REAL e, f, g;                       // parallel to e0; g is 1 but for a cone of ggx_cone2026.h
     VNDF_REAL e1x, e1y, e1z, e2x, e2y, e2z;  // parallel to e1 and e2
     VNDF_REAL step_1, step_2;                // from a radius times a direction to parts along e1 and e2
     VNDF_REAL along_1, along_2;              // v . e1 and v . e2 of these
-    VNDF_REAL s0, s2;                        // of v: parts along (e, f, 1) and e2
+    VNDF_REAL s0, s2;                        // of v: parts along (e, f, g) and e2
     VNDF_REAL dual_1, dual_2;                // from the product with e1 or e2 to the part along it
     VNDF_REAL rim_0, rim_1;
     VNDF_REAL slope_0, slope_2, share, bend;
@@ -201,6 +201,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_of(struct vndf_ggx_lobe lob
     l.length2 = VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z));
     l.e = c.e;
     l.f = c.f;
+    l.g = VNDF_R(1.0);
     l.unit = above ? c.unit * v.scale : VNDF_R(1.0);
     l.cap = vndf_impl_conic_cap_of(v, l.wo_z);
     l.cap.x = above ? VNDF_R(0.0) : l.cap.x;
@@ -237,7 +238,7 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, l.length2 * left)));
     h.x = VNDF_FMA(tau, l.x, VNDF_FMA(m0, l.e, VNDF_FMA(m1, l.e1x, m2 * l.e2x)));
     h.y = VNDF_FMA(tau, l.y, VNDF_FMA(m0, l.f, VNDF_FMA(m1, l.e1y, m2 * l.e2y)));
-    h.z = VNDF_FMA(tau, l.z, VNDF_FMA(m1, l.e1z, VNDF_FMA(m2, l.e2z, m0)));
+    h.z = VNDF_FMA(tau, l.z, VNDF_FMA(m1, l.e1z, VNDF_FMA(m2, l.e2z, m0 * l.g)));
     return h;
 }
 
@@ -366,7 +367,7 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
                                                             struct vndf_impl_conic_normal m, VNDF_REAL twice,
                                                             VNDF_REAL height) {
     struct vndf_impl_disk_square d;
-    VNDF_REAL m0 = l.s0 * VNDF_FMA(l.e, m.x, VNDF_FMA(l.f, m.y, m.z));
+    VNDF_REAL m0 = l.s0 * VNDF_FMA(l.e, m.x, VNDF_FMA(l.f, m.y, l.g * m.z));
     VNDF_REAL m1 = l.dual_1 * VNDF_FMA(l.e1x, m.x, VNDF_FMA(l.e1y, m.y, l.e1z * m.z));
     VNDF_REAL m2 = l.dual_2 * VNDF_FMA(l.e2x, m.x, VNDF_FMA(l.e2y, m.y, l.e2z * m.z));
     VNDF_REAL slope = VNDF_FMA(l.slope_0, m0, l.slope_2 * m2),
