@@ -43,20 +43,33 @@ struct LightView {
     Vec3<R> wo, l;
     R alpha_x, alpha_y;
     R one_minus_cos, kappa, length;  // length of A wo
+    // Whether -wo is outside the cap, by more than 2^-12 of its size if that is below 60 degrees.
+    bool outside = true;
 };
 template <class R>
 LightView<R> light_view(const Vec3<R>& wo, const Light<R>& cap, const R& alpha_x, const R& alpha_y) {
     // 1 + wo . l as half a square: neither this nor 1 - cos(beta) is rounded where they are all but nothing.
     const Vec3<R> sum{wo.x + cap.l.x, wo.y + cap.l.y, wo.z + cap.l.z};
     const R length = hypotenuse(hypotenuse(R(alpha_x * wo.x), R(alpha_y * wo.y)), wo.z);
-    return {wo, cap.l, alpha_x, alpha_y, cap.one_minus_cos, dot(sum, sum) / 2 - cap.one_minus_cos, length};
+    const R kappa = dot(sum, sum) / 2 - cap.one_minus_cos, edge = cap.one_minus_cos * Real<R>(0x1p-12);
+    return {wo,
+            cap.l,
+            alpha_x,
+            alpha_y,
+            cap.one_minus_cos,
+            kappa,
+            length,
+            kappa > (cap.one_minus_cos > Real<R>(0.5) ? R(0) : edge)};
 }
 
 template <class S, class R>
 LightView<S> widened(const LightView<R>& v) {
-    const auto wide = [](const Vec3<R>& a) { return Vec3<S>{S(value_of(a.x)), S(value_of(a.y)), S(value_of(a.z))}; };
+    const auto wide = [](const Vec3<R>& a) {
+        return Vec3<S>{S(value_of(a.x)), S(value_of(a.y)), S(value_of(a.z))};
+    };
     const Light<S> cap{wide(v.l), S(value_of(v.one_minus_cos)), S(1)};
-    LightView<S> w{wide(v.wo), cap.l, S(value_of(v.alpha_x)), S(value_of(v.alpha_y)), cap.one_minus_cos, S(0), S(0)};
+    LightView<S> w{wide(v.wo), cap.l, S(value_of(v.alpha_x)), S(value_of(v.alpha_y)), cap.one_minus_cos,
+                   S(0),       S(0)};
     const Vec3<S> sum{w.wo.x + w.l.x, w.wo.y + w.l.y, w.wo.z + w.l.z};
     w.kappa = dot(sum, sum) / 2 - w.one_minus_cos;
     return w;
@@ -64,7 +77,8 @@ LightView<S> widened(const LightView<R>& v) {
 
 template <class R>
 void cap_matrix(const LightView<R>& c, R (&q)[3][3]) {
-    const R a[3] = {c.alpha_x, c.alpha_y, R(1)}, o[3] = {c.wo.x, c.wo.y, c.wo.z}, l[3] = {c.l.x, c.l.y, c.l.z};
+    const R a[3] = {c.alpha_x, c.alpha_y, R(1)}, o[3] = {c.wo.x, c.wo.y, c.wo.z},
+            l[3] = {c.l.x, c.l.y, c.l.z};
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             q[i][j] = a[i] * a[j] * (o[i] * l[j] + l[i] * o[j]);
@@ -113,7 +127,7 @@ Cone<R> cap_cone(const LightView<R>& v) {
     using W = typename WiderOf<T>::type;
     const R rcp = 1 / v.length;
     const Vec3<R> s{v.alpha_x * v.wo.x * rcp, v.alpha_y * v.wo.y * rcp, v.wo.z * rcp};
-    if (!(v.kappa > 0)) return facing_cone(s);
+    if (!v.outside) return facing_cone(s);
 
     const LightView<W> wide = widened<W>(v);
     W a[3][3];
@@ -139,13 +153,16 @@ Cone<R> cap_cone(const LightView<R>& v) {
     if (dot(axis[0], view) < 0) axis[0] = turned(axis[0]);
     Vec3<W> first, second;
     frame_across(axis[0], first, second);
-    W towards = dot(axis[1], view);
+    // e1 points to where v lies from w.
+    const Vec3<W> light{wide.alpha_x * wide.l.x, wide.alpha_y * wide.l.y, wide.l.z};
+    W towards = dot(axis[1], view) * dot(axis[0], light) - dot(axis[1], light) * dot(axis[0], view);
     using std::abs;
     if (!(abs(towards) > 0)) {
         const W x = dot(axis[1], first), y = dot(axis[1], second);
         towards = abs(x) < abs(y) ? y : x;
     }
     if (towards < 0) axis[1] = turned(axis[1]);
+    if (abs(value[order[1]] - value[order[2]]) < W(1e-17) * abs(value[order[1]])) axis[1] = first;
     axis[2] = {axis[0].y * axis[1].z - axis[0].z * axis[1].y, axis[0].z * axis[1].x - axis[0].x * axis[1].z,
                axis[0].x * axis[1].y - axis[0].y * axis[1].x};
 
@@ -153,7 +170,8 @@ Cone<R> cap_cone(const LightView<R>& v) {
     R lambda[3], e[3][3];
     T at[3][3];
     for (int i = 0; i < 3; ++i) {
-        at[i][0] = static_cast<T>(axis[i].x), at[i][1] = static_cast<T>(axis[i].y), at[i][2] = static_cast<T>(axis[i].z);
+        at[i][0] = static_cast<T>(axis[i].x), at[i][1] = static_cast<T>(axis[i].y),
+        at[i][2] = static_cast<T>(axis[i].z);
         lambda[i] = R(static_cast<T>(value[order[i]]));
         for (int k = 0; k < 3; ++k) e[i][k] = R(at[i][k]);
     }
@@ -175,7 +193,8 @@ Cone<R> cap_cone(const LightView<R>& v) {
     }
     Cone<R> c;
     c.mu = lambda[0], c.mu1 = -lambda[1], c.mu2 = -lambda[2];
-    c.e0 = {e[0][0], e[0][1], e[0][2]}, c.e1 = {e[1][0], e[1][1], e[1][2]}, c.e2 = {e[2][0], e[2][1], e[2][2]};
+    c.e0 = {e[0][0], e[0][1], e[0][2]}, c.e1 = {e[1][0], e[1][1], e[1][2]},
+    c.e2 = {e[2][0], e[2][1], e[2][2]};
     c.s0 = dot(c.e0, s), c.s1 = dot(c.e1, s), c.s2 = dot(c.e2, s);
     if (c.mu2 < 0) c.mu2 = R(0);
     c.p2 = c.mu / (c.mu + c.mu1), c.co_p2 = c.mu1 / (c.mu + c.mu1);
@@ -190,20 +209,6 @@ R ggx_sigma_cap(const Vec3<R>& wo, const Light<R>& cap, const R& alpha_x, const 
     return v.length * cone_area(cap_cone(v)) * cap.part;
 }
 
-template <class R>
-Sample<R> ggx_cone2026(const Arguments<R>& in) {
-    const Light<R> cap{in.l, in.one_minus_cos, in.cap_part};
-    const LightView<R> v = light_view(in.wo, cap, in.alpha_x, in.alpha_y);
-    const Cone<R> c = cap_cone(v);
-    View<R> frame = view(in.wo, in.alpha_x, in.alpha_y);
-    frame.ex = R(1), frame.ey = R(0);  // the axes are given along x, y and z
-    const StretchedNormal<R> m = v.kappa > 0 ? conic_normal(c, in) : facing_normal(c, in);
-    Sample<R> s = ggx_reflected<R>(in, frame, m, v.length * cone_area(c) * cap.part);
-    if (!(m.z > 0)) s.pdf = R(0);
-    if (!(s.pdf < std::numeric_limits<Real<R>>::infinity())) s.pdf = R(0);  // a cap of no size
-    return s;
-}
-
 // How far inside the cap wi is, as a difference of chords.
 template <class R>
 R chord_margin(const Vec3<R>& wi, const Light<R>& cap) {
@@ -213,9 +218,24 @@ R chord_margin(const Vec3<R>& wi, const Light<R>& cap) {
     return root - chord;
 }
 
+template <class R>
+Sample<R> ggx_cone2026(const Arguments<R>& in) {
+    const Light<R> cap{in.l, in.one_minus_cos, in.cap_part};
+    const LightView<R> v = light_view(in.wo, cap, in.alpha_x, in.alpha_y);
+    const Cone<R> c = cap_cone(v);
+    View<R> frame = view(in.wo, in.alpha_x, in.alpha_y);
+    frame.ex = R(1), frame.ey = R(0);  // the axes are given along x, y and z
+    const StretchedNormal<R> m = v.outside ? conic_normal(c, in) : facing_normal(c, in);
+    Sample<R> s = ggx_reflected<R>(in, frame, m, v.length * cone_area(c) * cap.part);
+    if (!(m.z > 0) || (!v.outside && !(chord_margin(s.direction, cap) > 0))) s.pdf = R(0);
+    if (!(s.pdf < std::numeric_limits<Real<R>>::infinity())) s.pdf = R(0);  // a cap of no size
+    return s;
+}
+
 // D(h) / (4 sigma_C) in the cap.
 template <class R>
-R ggx_pdf_wi_cone2026(const Vec3<R>& wo, const Vec3<R>& wi, const Light<R>& cap, const R& alpha_x, const R& alpha_y) {
+R ggx_pdf_wi_cone2026(const Vec3<R>& wo, const Vec3<R>& wi, const Light<R>& cap, const R& alpha_x,
+                      const R& alpha_y) {
     const R sigma = ggx_sigma_cap(wo, cap, alpha_x, alpha_y);
     if (!(chord_margin(wi, cap) > 0) || !(sigma > 0)) return R(0);
     const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
@@ -229,11 +249,16 @@ DiskPoint<R> ggx_invert_cone2026(const Vec3<R>& wo, const Vec3<R>& wi, const Lig
     const Vec3<R> i = normalised(wi), h{v.wo.x + i.x, v.wo.y + i.y, v.wo.z + i.z};
     const R gx = h.x / alpha_x, gy = h.y / alpha_y, length = hypotenuse(hypotenuse(gx, gy), h.z);
     if (!(length > 0)) return {R(0), R(0)};
+    const Vec3<R> m{gx / length, gy / length, h.z / length};
+    const Cone<R> c = cap_cone(v);
+    const R h2 = dot(h, h), cosine = h2 / (2 * length * v.length);
+    if (!v.outside) {
+        const R m1 = dot(c.e1, m), m2 = dot(c.e2, m), square = squared(m1) + squared(m2);
+        return {turn_of(m2, m1), square < Real<R>(0.5) ? square : R(1 - squared(cosine))};
+    }
     const Vec3<R> off{i.x - cap.l.x, i.y - cap.l.y, i.z - cap.l.z};
-    const R inside = cap.one_minus_cos - dot(off, off) / 2, h2 = dot(h, h);
-    const R form = (inside > 0 ? inside : R(0)) * h2 / (length * length);
-    return disk_point<R>(cap_cone(v), {gx / length, gy / length, h.z / length}, h2 / (2 * length * v.length),
-                         v.kappa > 0 ? form : R(squared(R(h2 / (2 * length * v.length)))));
+    const R inside = cap.one_minus_cos - dot(off, off) / 2;
+    return disk_point<R>(c, m, cosine, (inside > 0 ? inside : R(0)) * h2 / (length * length));
 }
 
 }  // namespace vndf::reference

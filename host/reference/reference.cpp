@@ -409,7 +409,7 @@ R ggx_cap_probability_of(Reader<R> in) {
     const Vec3<R> wo = in.vector();
     const Light<R> cap = cap_in(in);
     const R ax = in.alpha(), ay = in.alpha();
-    const R p = ggx_sigma_cap(wo, cap, ax, ay) / Ggx::sigma(view(wo, ax, ay));
+    const R p = ggx_sigma_cap(wo, cap, ax, ay) / Ggx::sigma(view(normalised(wo), ax, ay));
     return p < 1 ? p : R(1);
 }
 template <class R>

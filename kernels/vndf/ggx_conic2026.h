@@ -79,25 +79,31 @@ VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_
     return h;
 }
 
+// A reflection m, moved to (x, y, z), as a unit vector, and its density D / (2 n) for a normaliser n of wo as given.
+VNDF_FN struct vndf_impl_sample vndf_impl_conic_unit(struct vndf_impl_mirror m, VNDF_REAL x, VNDF_REAL y,
+                                                     VNDF_REAL z, VNDF_REAL alpha_x, VNDF_REAL alpha_y,
+                                                     VNDF_REAL n) {
+    struct vndf_impl_sample o;
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL o2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    o.x = x * rcp;
+    o.y = y * rcp;
+    o.z = z * rcp;
+    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n * rcp, alpha_x, alpha_y);
+    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
+}
+
 // The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as
 // given. above: whether it is known to be above the surface.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
                                                         VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y, VNDF_REAL n, int above) {
-    struct vndf_impl_sample o;
     struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, h.x, h.y, h.z, alpha_x, alpha_y);
     // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored
     // there, which keeps the length, and never 0.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON);
-    VNDF_REAL z = above ? height : m.z;
-    // Only the direction of wo counts: the length that the mirror kept is divided out.
-    VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
-    o.x = m.x * rcp;
-    o.y = m.y * rcp;
-    o.z = z * rcp;
-    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n * rcp, alpha_x, alpha_y);
-    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
+    return vndf_impl_conic_unit(m, m.x, m.y, above ? height : m.z, alpha_x, alpha_y, n);
 }
 
 // --- The lobe of one wo and alpha ---

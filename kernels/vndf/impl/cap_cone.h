@@ -24,6 +24,9 @@ struct vndf_impl_cap {
     int defined;                       // neither wo nor l is a zero vector
 };
 
+// Where nothing is left of the digits of kappa: -wo counts as inside a cap that it is so near.
+#define VNDF_IMPL_CAP_EDGE VNDF_R(0.000244140625)  // 2^-12
+
 // What a 1 - cos beta of 0 counts as: a cap smaller than the rounding of its directions.
 #if VNDF_DOUBLE
 #define VNDF_IMPL_CAP_LEAST VNDF_R(3.08148791101957736489e-33)  // 2^-108
@@ -70,15 +73,17 @@ struct vndf_impl_cubic {
 VNDF_FN struct vndf_impl_cubic vndf_impl_cap_cubic(struct vndf_impl_cap c, VNDF_REAL wo_x, VNDF_REAL wo_y,
                                                    VNDF_REAL wo_z, VNDF_REAL x2, VNDF_REAL y2) {
     struct vndf_impl_cubic q;
-    VNDF_REAL twice = VNDF_R(2.0) * c.gap, square = c.gap * (c.wo2 + c.cosine);  // sin^2 beta
+    VNDF_REAL square = c.gap * (c.wo2 + c.cosine);  // sin^2 beta
     VNDF_REAL xx = wo_x * c.lx, yy = wo_y * c.ly, zz = wo_z * c.lz;
     q.t = c.top + VNDF_FMA(x2, VNDF_FMA(VNDF_R(2.0), xx, -c.kappa), y2 * VNDF_FMA(VNDF_R(2.0), yy, -c.kappa));
-    // The minors of Q over those of A^2: (wo + l)^2 - 2 gap wo l - sin^2 beta of each component, or by wo x l.
-    VNDF_REAL sum_x = VNDF_FMA(c.wo2 * c.sum_x, c.sum_x, -VNDF_FMA(twice, xx, square));
-    VNDF_REAL sum_y = VNDF_FMA(c.wo2 * c.sum_y, c.sum_y, -VNDF_FMA(twice, yy, square));
-    VNDF_REAL sum_z = VNDF_FMA(c.wo2 * c.sum_z, c.sum_z, -VNDF_FMA(twice, zz, square));
-    struct vndf_impl_vector o =
-        vndf_impl_cross(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE3(c.lx, c.ly, c.lz));
+    // The minors of Q over those of A^2, (wo + l)^2 - 2 gap wo l - sin^2 beta of each component: by what wo and l have across
+    // it, or by wo x l.
+    VNDF_REAL square_x = VNDF_FMA(wo_x, wo_x, c.lx * c.lx), square_y = VNDF_FMA(wo_y, wo_y, c.ly * c.ly),
+              square_z = VNDF_FMA(wo_z, wo_z, c.lz * c.lz);
+    VNDF_REAL sum_x = VNDF_FMA(c.cosine * c.sum_x, c.sum_x, -c.gap * (square_y + square_z - c.gap));
+    VNDF_REAL sum_y = VNDF_FMA(c.cosine * c.sum_y, c.sum_y, -c.gap * (square_z + square_x - c.gap));
+    VNDF_REAL sum_z = VNDF_FMA(c.cosine * c.sum_z, c.sum_z, -c.gap * (square_x + square_y - c.gap));
+    struct vndf_impl_vector o = vndf_impl_cross(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE3(c.lx, c.ly, c.lz));
     VNDF_REAL minor_x = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((xx - yy) - zz), -o.x * o.x) : sum_x;
     VNDF_REAL minor_y = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((yy - zz) - xx), -o.y * o.y) : sum_y;
     VNDF_REAL minor_z = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((zz - xx) - yy), -o.z * o.z) : sum_z;
@@ -91,7 +96,11 @@ VNDF_FN struct vndf_impl_cubic vndf_impl_cap_cubic(struct vndf_impl_cap c, VNDF_
 VNDF_FN VNDF_REAL vndf_impl_cap_halley(VNDF_REAL x, struct vndf_impl_cubic q) {
     VNDF_REAL f = VNDF_FMA(VNDF_FMA(x - q.t, x, q.m), x, -q.d);
     VNDF_REAL slope = VNDF_FMA(VNDF_FMA(VNDF_R(3.0), x, VNDF_R(-2.0) * q.t), x, q.m);
-    VNDF_REAL den = VNDF_FMA(slope, slope, -f * VNDF_FMA(VNDF_R(3.0), x, -q.t));
+    // Both near 1: their squares stay in range.
+    VNDF_REAL scale = vndf_impl_scale(vndf_impl_max(slope, VNDF_IMPL_LEAST));
+    slope *= scale;
+    f *= scale;
+    VNDF_REAL den = VNDF_FMA(slope, slope, -f * (VNDF_FMA(VNDF_R(3.0), x, -q.t) * scale));
     return den > VNDF_R(0.0) ? VNDF_FMA(-f, slope / den, x) : x;
 }
 
@@ -122,13 +131,14 @@ struct vndf_impl_cap_cone {
     VNDF_REAL qx, qy, qz;
     VNDF_REAL mu, kappa, omega, scale;  // scale: the power of two
     VNDF_REAL sum, product;             // (mu + mu1)(mu + mu2), mu1 mu2
-    int inside;                         // kappa > 0
+    int inside;                         // kappa > 0: -wo is outside the cap
 };
-VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, VNDF_REAL wo_x, VNDF_REAL wo_y,
-                                                        VNDF_REAL wo_z, VNDF_REAL alpha_x, VNDF_REAL alpha_y) {
+VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, VNDF_REAL wo_x,
+                                                        VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
+                                                        VNDF_REAL alpha_y) {
     struct vndf_impl_cap_cone k;
     VNDF_REAL x2 = alpha_x * alpha_x, y2 = alpha_y * alpha_y;
-    k.inside = c.kappa > VNDF_R(0.0) && c.defined;
+    k.inside = c.kappa > (c.wide ? VNDF_R(0.0) : VNDF_IMPL_CAP_EDGE * c.gap) && c.defined;
     struct vndf_impl_cubic q = vndf_impl_cap_cubic(c, wo_x, wo_y, wo_z, x2, y2);
     VNDF_REAL reach2 = VNDF_FMA(q.t, q.t, VNDF_R(-3.0) * q.m);
     VNDF_REAL reach = VNDF_SQRT(vndf_impl_max(reach2, VNDF_IMPL_LEAST));
@@ -154,8 +164,8 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
         VNDF_FMA(hx * c.more_x, c.sum_x, VNDF_FMA(hy * c.more_y, c.sum_y, gz * c.more_z * c.sum_z));
     VNDF_REAL root = VNDF_SQRT(ww * vv), more = k.inside ? rise / (root + vv) : VNDF_R(0.0);
     k.omega = VNDF_R(1.0) + more;
-    VNDF_REAL ex = alpha_x * gx * VNDF_FMA(more, wo_x, c.sum_x), ey = alpha_y * gy * VNDF_FMA(more, wo_y, c.sum_y),
-              ez = gz * VNDF_FMA(more, wo_z, c.sum_z);
+    VNDF_REAL ex = alpha_x * gx * VNDF_FMA(more, wo_x, c.sum_x),
+              ey = alpha_y * gy * VNDF_FMA(more, wo_y, c.sum_y), ez = gz * VNDF_FMA(more, wo_z, c.sum_z);
     ex = k.inside ? ex : k.x;
     ey = k.inside ? ey : k.y;
     ez = k.inside ? ez : k.z;
