@@ -39,13 +39,16 @@ VNDF_FN VNDF_REAL vndf_impl_cap_sigma(struct vndf_impl_cap c, struct vndf_impl_c
 struct vndf_impl_cap_frame {
     VNDF_REAL ax, ay, az, bx, by;
 };
-VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL ez) {
+VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL ez,
+                                                          VNDF_REAL before) {
     struct vndf_impl_cap_frame f;
-    VNDF_REAL size = vndf_impl_abs(ex) + vndf_impl_abs(ey);
+    // Of two shapes: alike they would be packed (impl/stretch.h).
+    VNDF_REAL size = vndf_impl_abs(ex) + vndf_impl_max(ey, -ey);
     int level = size > VNDF_R(0.0);
     VNDF_REAL scale = vndf_impl_scale(level ? size : VNDF_R(1.0)), x = level ? ex * scale : VNDF_R(1.0),
               y = ey * scale;
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(x, x, y * y));
+    VNDF_REAL one = before > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(2.0),
+              rcp = one / VNDF_SQRT(VNDF_FMA(x, x, y * y));
     f.by = x * rcp;
     f.bx = -(y * rcp);
     f.ax = f.by * ez;
@@ -62,9 +65,8 @@ VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REA
 VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l,
                                                      struct vndf_impl_cap_cone k) {
     VNDF_REAL x2 = l.alpha_x * l.alpha_x, y2 = l.alpha_y * l.alpha_y;
-    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.ex, k.ey, k.ez);
-    VNDF_REAL rcp = VNDF_R(1.0) / (k.omega * k.mu), rcp_mu = rcp * k.omega,
-              share = VNDF_R(0.5) * k.scale * rcp * VNDF_IMPL_CAP_DOWN;
+    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.ex, k.ey, k.ez, k.rcp);
+    VNDF_REAL rcp = k.rcp, rcp_mu = rcp * k.omega, share = VNDF_R(0.5) * k.scale * rcp * VNDF_IMPL_CAP_DOWN;
     VNDF_REAL kappa = k.kappa * rcp_mu;
     // P / (1 + e0^T P e0) for mu = 1, and with it all of the matrix times 2^-30: its products may be as large as numbers get.
     VNDF_REAL across_x = VNDF_FMA(k.ey, k.ey, k.ez * k.ez), across_y = VNDF_FMA(k.ex, k.ex, k.ez * k.ez),
@@ -74,7 +76,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     VNDF_REAL qa = VNDF_FMA(f.ax, k.qx, VNDF_FMA(f.ay, k.qy, f.az * k.qz));
     VNDF_REAL qb = VNDF_FMA(f.bx, k.qx, f.by * k.qy);
     // Of diagonal forms whatever is the same for all three axes makes no difference: that of x or y, which is more across e0.
-    int other = vndf_impl_abs(k.ex) < vndf_impl_abs(k.ey);
+    int other = across_x > across_y;
     VNDF_REAL fa = other ? f.ay : f.ax, fb = other ? f.by : f.bx, less = other ? l.alpha_x : l.alpha_y,
               more2 = other ? y2 : x2;
     VNDF_REAL slant = (l.alpha_x - l.alpha_y) * (l.alpha_x + l.alpha_y);
@@ -125,7 +127,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     l.along_2 = k.inside ? l.along_2 : VNDF_R(0.0);
     l.s0 = VNDF_R(1.0);
     l.s2 = l.along_2 * l.spread;
-    VNDF_REAL root_1 = VNDF_SQRT(rcp_g1), root_2 = VNDF_SQRT(rcp_g2);
+    VNDF_REAL root_1 = VNDF_SQRT(rcp_g1), root_2 = VNDF_SQRT(root_1 > VNDF_R(0.0) ? rcp_g2 : VNDF_R(1.0));
     // The sign of e1 is that of q . e1 >= 0.
     int turned = VNDF_FMA(ca, qa, cb * qb) < VNDF_R(0.0);
     l.step_1 = turned ? -root_1 : root_1;
@@ -167,9 +169,10 @@ VNDF_FN struct vndf_ggx_cone2026 vndf_ggx_cone2026_of(struct vndf_ggx_lobe lobe,
     c.inside = k.inside;
     c.defined = cap.defined && k.length > VNDF_R(0.0);
     c.gap = cap.gap;
-    VNDF_REAL chord = VNDF_SQRT(VNDF_R(2.0) * cap.gap), reach = chord + VNDF_R(32.0) * VNDF_EPSILON;
+    VNDF_REAL chord = VNDF_SQRT(k.mu > VNDF_R(0.0) ? VNDF_R(2.0) * cap.gap : VNDF_R(1.0)),
+              reach = chord + VNDF_R(32.0) * VNDF_EPSILON;
     c.limit = reach * reach;
-    c.rcp_mu = k.scale / k.mu;
+    c.rcp_mu = k.scale * (k.rcp * k.omega);
     c.map.alpha_x = lobe.alpha_x;
     c.map.alpha_y = lobe.alpha_y;
     c.map.wo_x = lobe.wo_x;
@@ -195,9 +198,9 @@ VNDF_FN struct vndf_ggx_cone2026 vndf_ggx_cone2026_lobe(VNDF_REAL3 wo, VNDF_REAL
 // --- Samples and their density ---
 
 // The squared chord between the unit vectors along wi and l, times |wi| |l|.
-VNDF_FN VNDF_REAL vndf_impl_cap_chord2(struct vndf_ggx_cone2026 c, VNDF_REAL3 wi) {
-    VNDF_REAL x = wi.x - c.lx, y = wi.y - c.ly, z = wi.z - c.lz;
-    VNDF_REAL more = VNDF_FMA(x, wi.x + c.lx, VNDF_FMA(y, wi.y + c.ly, z * (wi.z + c.lz)));
+VNDF_FN VNDF_REAL vndf_impl_cap_chord2(struct vndf_ggx_cone2026 c, VNDF_REAL wx, VNDF_REAL wy, VNDF_REAL wz) {
+    VNDF_REAL x = wx - c.lx, y = wy - c.ly, z = wz - c.lz;
+    VNDF_REAL more = VNDF_FMA(x, wx + c.lx, VNDF_FMA(y, wy + c.ly, z * (wz + c.lz)));
     return VNDF_FMA(VNDF_R(-0.25) * more, more, VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));
 }
 
@@ -216,7 +219,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_cone2026(struct vndf_ggx_cone2026 c, V
         vndf_impl_conic_unit(m, VNDF_FMA(cut, x, m.x), VNDF_FMA(cut, y, m.y), VNDF_FMA(cut, z, m.z),
                              c.map.alpha_x, c.map.alpha_y, c.map.twice_sigma);
     // A sample of all normals that face wo may miss the cap.
-    int hits = c.inside || vndf_impl_cap_chord2(c, VNDF_MAKE3(o.x, o.y, o.z)) <= c.limit;
+    int hits = c.inside || vndf_impl_cap_chord2(c, o.x, o.y, o.z) <= c.limit;
     o.pdf = h.z > VNDF_R(0.0) && hits ? o.pdf : VNDF_R(0.0);
     return vndf_impl_where(c.defined, o);
 }
@@ -238,7 +241,7 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_cone2026_lobe(struct vndf_ggx_cone2026 cone, V
     struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(cone.map.wo_x, cone.map.wo_y, cone.map.wo_z), wi,
                                                 cone.map.alpha_x, cone.map.alpha_y);
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, cone.map.twice_sigma, cone.map.alpha_x, cone.map.alpha_y);
-    int holds = vndf_impl_cap_chord2(cone, wi) <= cone.limit;
+    int holds = vndf_impl_cap_chord2(cone, wi.x, wi.y, wi.z) <= cone.limit;
     return holds && cone.defined ? pdf : VNDF_R(0.0);
 }
 
@@ -336,8 +339,8 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_cone2026_lobe(struct vndf_ggx_cone2026 con
     m.z = hz * rcp;
     VNDF_REAL twice = h2 * rcp * cone.length;
     // m^T Q m for mu = 1: |A m|^2 (wi . l - cos beta) / mu, of what all normals are, (v . m)^2.
-    VNDF_REAL depth =
-        vndf_impl_max(VNDF_FMA(VNDF_R(-0.5), vndf_impl_cap_chord2(cone, wi), cone.gap), VNDF_R(0.0));
+    VNDF_REAL depth = vndf_impl_max(
+        VNDF_FMA(VNDF_R(-0.5), vndf_impl_cap_chord2(cone, wi.x, wi.y, wi.z), cone.gap), VNDF_R(0.0));
     VNDF_REAL up2 = VNDF_R(0.25) * (twice * twice);
     VNDF_REAL height = cone.inside ? depth * (h2 * rcp * rcp) * cone.rcp_mu : up2;
     // All steps times 1 + m1, as in the map; of more than 1e18 (double: 1e150) squares would leave the range of numbers.

@@ -44,7 +44,7 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(VNDF_REAL wo_x, VNDF_REAL wo_y, VN
     // |wo| / |l| - 1, from |wo|^2 - |l|^2 as the product of sum and difference.
     VNDF_REAL less = -VNDF_FMA(sx, dx, VNDF_FMA(sy, dy, sz * dz));
     VNDF_REAL length = l2 + VNDF_SQRT(c.wo2 * l2);
-    c.defined = length > VNDF_R(0.0) && c.wo2 > VNDF_R(0.0) && length <= VNDF_REAL_MAX;
+    c.defined = vndf_impl_min(length, c.wo2) > VNDF_R(0.0) && length <= VNDF_REAL_MAX;
     VNDF_REAL stretch = less / (c.defined ? length : VNDF_R(1.0));
     c.lx = VNDF_FMA(stretch, l.x, l.x);
     c.ly = VNDF_FMA(stretch, l.y, l.y);
@@ -70,6 +70,12 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(VNDF_REAL wo_x, VNDF_REAL wo_y, VN
 struct vndf_impl_cubic {
     VNDF_REAL t, m, d;
 };
+VNDF_FN VNDF_REAL vndf_impl_cap_minor(struct vndf_impl_cap c, VNDF_REAL sum, VNDF_REAL squares,
+                                      VNDF_REAL products, VNDF_REAL across) {
+    VNDF_REAL a = c.wide ? c.kappa : c.cosine * sum, b = c.wide ? c.cosine + products : sum;
+    VNDF_REAL d = c.wide ? -across : -c.gap, e = c.wide ? across : squares - c.gap;
+    return VNDF_FMA(a, b, d * e);
+}
 VNDF_FN struct vndf_impl_cubic vndf_impl_cap_cubic(struct vndf_impl_cap c, VNDF_REAL wo_x, VNDF_REAL wo_y,
                                                    VNDF_REAL wo_z, VNDF_REAL x2, VNDF_REAL y2) {
     struct vndf_impl_cubic q;
@@ -78,15 +84,18 @@ VNDF_FN struct vndf_impl_cubic vndf_impl_cap_cubic(struct vndf_impl_cap c, VNDF_
     q.t = c.top + VNDF_FMA(x2, VNDF_FMA(VNDF_R(2.0), xx, -c.kappa), y2 * VNDF_FMA(VNDF_R(2.0), yy, -c.kappa));
     // The minors of Q over those of A^2, (wo + l)^2 - 2 gap wo l - sin^2 beta of each component: by what wo and l have across
     // it, or by wo x l.
-    VNDF_REAL square_x = VNDF_FMA(wo_x, wo_x, c.lx * c.lx), square_y = VNDF_FMA(wo_y, wo_y, c.ly * c.ly),
+    VNDF_REAL square_x = VNDF_FMA(wo_x, wo_x, c.lx * c.lx), square_y = VNDF_FMA(c.ly, c.ly, wo_y * wo_y),
               square_z = VNDF_FMA(wo_z, wo_z, c.lz * c.lz);
-    VNDF_REAL sum_x = VNDF_FMA(c.cosine * c.sum_x, c.sum_x, -c.gap * (square_y + square_z - c.gap));
-    VNDF_REAL sum_y = VNDF_FMA(c.cosine * c.sum_y, c.sum_y, -c.gap * (square_z + square_x - c.gap));
-    VNDF_REAL sum_z = VNDF_FMA(c.cosine * c.sum_z, c.sum_z, -c.gap * (square_x + square_y - c.gap));
-    struct vndf_impl_vector o = vndf_impl_cross(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE3(c.lx, c.ly, c.lz));
-    VNDF_REAL minor_x = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((xx - yy) - zz), -o.x * o.x) : sum_x;
-    VNDF_REAL minor_y = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((yy - zz) - xx), -o.y * o.y) : sum_y;
-    VNDF_REAL minor_z = c.wide ? VNDF_FMA(c.kappa, c.cosine + ((zz - xx) - yy), -o.z * o.z) : sum_z;
+    VNDF_REAL ox = vndf_impl_difference_of_products(wo_y, c.lz, wo_z, c.ly),
+              oy = vndf_impl_difference_of_products(wo_z, c.lx, wo_x, c.lz),
+              oz = vndf_impl_difference_of_products(wo_x, c.ly, wo_y, c.lx);
+    // Each one sum of two products, whose factors are chosen first: of three alike choices of sums two would be packed
+    // (impl/stretch.h).
+    VNDF_REAL minor_x = vndf_impl_cap_minor(c, c.sum_x, square_y + square_z, (xx - yy) - zz, ox);
+    VNDF_REAL minor_y = vndf_impl_cap_minor(c, minor_x < VNDF_REAL_MAX ? c.sum_y : c.sum_x,
+                                            square_z + square_x, (yy - zz) - xx, oy);
+    VNDF_REAL minor_z = vndf_impl_cap_minor(c, minor_y < VNDF_REAL_MAX ? c.sum_z : c.sum_y,
+                                            square_x + square_y, (zz - xx) - yy, oz);
     q.m = VNDF_FMA(y2, minor_x, VNDF_FMA(x2, minor_y, x2 * y2 * minor_z));
     q.d = x2 * y2 * square * c.kappa;
     return q;
@@ -130,6 +139,7 @@ struct vndf_impl_cap_cone {
     VNDF_REAL length;            // 1 / (v . e0)
     VNDF_REAL qx, qy, qz;
     VNDF_REAL mu, kappa, omega, scale;  // scale: the power of two
+    VNDF_REAL rcp;                      // 1 / (omega mu)
     VNDF_REAL sum, product;             // (mu + mu1)(mu + mu2), mu1 mu2
     int inside;                         // kappa > 0: -wo is outside the cap
 };
@@ -155,7 +165,9 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     k.z = wo_z;
     // N = mu + kappa A^2, and v^T v, w^T w over it.
     VNDF_REAL nx = VNDF_FMA(k.kappa, x2, k.mu), ny = VNDF_FMA(k.kappa, y2, k.mu), nz = k.kappa + k.mu;
-    VNDF_REAL rcp = VNDF_R(1.0) / (nx * ny), gx = ny * rcp, gy = rcp * nx, gz = VNDF_R(1.0) / nz;
+    VNDF_REAL rcp = VNDF_R(1.0) / (nx * ny), gx = ny * rcp, gy = rcp * nx,
+              gz = VNDF_R(1.0) /
+                   (rcp > VNDF_R(0.0) ? nz : VNDF_R(1.0));  // one feeds the other (impl/stretch.h)
     VNDF_REAL hx = x2 * gx, hy = gy * y2;
     VNDF_REAL vv = VNDF_FMA(hx * wo_x, wo_x, VNDF_FMA(hy * wo_y, wo_y, gz * wo_z * wo_z));
     VNDF_REAL ww = VNDF_FMA(hx * c.lx, c.lx, VNDF_FMA(hy * c.ly, c.ly, gz * c.lz * c.lz));
@@ -180,6 +192,7 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     k.qz = k.inside ? VNDF_FMA(more, wo_z, -c.more_z) : VNDF_R(0.0);
     k.mu = k.inside ? k.mu : VNDF_R(1.0);
     k.kappa = k.inside ? k.kappa : VNDF_R(0.0);
+    k.rcp = VNDF_R(1.0) / (rcp_e > VNDF_R(0.0) ? k.omega * k.mu : VNDF_R(1.0));
     k.product = k.inside ? q.d / k.mu : VNDF_R(0.0);
     k.sum = VNDF_FMA(k.mu, k.inside ? VNDF_R(2.0) * k.mu - q.t : VNDF_R(1.0), k.product);
     return k;
