@@ -20,13 +20,14 @@ struct Eigen {
 };
 template <class T>
 Eigen<T> jacobi(T (&a)[3][3]) {
+    using std::abs, std::sqrt;
     Eigen<T> e{};
     for (int i = 0; i < 3; ++i) e.v[i][i] = 1;
     const auto rotate_pair = [&](int p, int q) {
-        if (!(std::abs(a[p][q]) > 0)) return;
+        if (!(abs(a[p][q]) > 0)) return;
         const T theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const T t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-        const T c = 1 / std::sqrt(t * t + 1), s = t * c;
+        const T t = (theta < 0 ? -1 : 1) / (abs(theta) + sqrt(theta * theta + 1));
+        const T c = 1 / sqrt(t * t + 1), s = t * c;
         a[p][p] -= t * a[p][q], a[q][q] += t * a[p][q];
         a[p][q] = a[q][p] = 0;
         const int r = 3 - p - q;
@@ -194,9 +195,7 @@ StretchedNormal<R> conic_normal(const Cone<R>& c, const Arguments<R>& in) {
     const R epsilon = line_root<R>(a, b, R(l.rho * c.q2 * in.v2));
     // |P2 + tau s| = 1, where 1 - |P2|^2 is the part of p^2 that the rim point leaves over y^2.
     const R rim2 = rim + l.c0 * epsilon, m2 = px + l.c2 * epsilon;
-    const R over = l.rho > 0 && c.s2 > 0
-                       ? R((rim2 - rim) * (rim2 + rim) / (l.rho * c.q2))
-                       : R(in.v2 - l.c2 * epsilon / l.root_q * (2 * x + l.c2 * epsilon / l.root_q));
+    const R part = l.rho * c.q2, over = part > 0 ? R(l.c0 * epsilon / part * (rim + rim2)) : in.v2;
     R along = c.s0 * rim2 + c.s2 * m2 + c.s1 * py;
     if (along < 0) along = R(0);
     const R tau = line_root<R>(R(Real<R>(1)), along, R(c.p2 * over));
@@ -231,28 +230,12 @@ R turn_of(const R& x, const R& y) {
     const R turn = atan2(y, x) / (2 * pi<R>());
     return turn < 0 ? R(turn + 1) : turn;
 }
+// The moves backwards from a normal of the frame of the cone's axes; cosine = s . m, form = m^T Q m.
 template <class R>
-DiskPoint<R> ggx_invert_conic2026(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v) {
+DiskPoint<R> disk_point(const Cone<R>& c, const Vec3<R>& m, const R& cosine, const R& form) {
     using std::sqrt;
-    const Vec3<R> h{wo.x + wi.x, wo.y + wi.y, wo.z + wi.z};
-    const R gx = h.x / v.alpha_x, gy = h.y / v.alpha_y;
-    const R length = hypotenuse(hypotenuse(gx, gy), h.z);
-    if (!(length > 0)) return {R(0), R(0)};
-    const R ge = (gx * v.ex + gy * v.ey) / length, gp = (gy * v.ex - gx * v.ey) / length, gz = h.z / length;
-    const R h2 = dot(h, h), cosine = h2 / (2 * length * v.length);
-    if (!(v.up > 0)) {
-        const R ox = 2 * cosine * (ge * v.ex - gp * v.ey) - v.sin_theta * v.ex,
-                oy = 2 * cosine * (ge * v.ey + gp * v.ex) - v.sin_theta * v.ey;
-        using std::sin;
-        return {turn_of(ox, oy), 1 - cosine * gz / squared(R(sin(v.nu / 2)))};
-    }
-    const Cone<R> c = cone(v);
     const Lines<R> l = lines(c);
-    const auto along = [&](const Vec3<R>& w) { return R(w.x * ge + w.y * gp + w.z * gz); };
-    const R m0 = along(c.e0), m1 = along(c.e1), m2 = along(c.e2);
-    // m^T Q m = wi.z |A m|^2 / length
-    const R up = wi.z > 0 ? wi.z : R(0);
-    const R height = up * h2 / (length * length * v.length * (c.mu + c.mu1));
+    const R m0 = dot(c.e0, m), m1 = dot(c.e1, m), m2 = dot(c.e2, m), height = form / (c.mu + c.mu1);
     const R a = squared(l.c0) + l.rho * squared(l.c2), b = l.c0 * m0 + l.rho * l.c2 * m2;
     const R square = b * b - a * height, root = square > 0 ? R(sqrt(square)) : R(0);
     const R delta = b + root > 0 ? R(height / (b + root)) : R(0), tau = delta / l.n;
@@ -265,6 +248,25 @@ DiskPoint<R> ggx_invert_conic2026(const Vec3<R>& wo, const Vec3<R>& wi, const Vi
     const R square_radius = x * x + y * y;
     const R rest = part * (l.rho * l.c2 * l.root_q * x + l.c0 * rim + root);
     return {turn_of(x, y), square_radius > Real<R>(0.5) ? R(1 - rest) : square_radius};
+}
+
+template <class R>
+DiskPoint<R> ggx_invert_conic2026(const Vec3<R>& wo, const Vec3<R>& wi, const View<R>& v) {
+    const Vec3<R> h{wo.x + wi.x, wo.y + wi.y, wo.z + wi.z};
+    const R gx = h.x / v.alpha_x, gy = h.y / v.alpha_y;
+    const R length = hypotenuse(hypotenuse(gx, gy), h.z);
+    if (!(length > 0)) return {R(0), R(0)};
+    const R ge = (gx * v.ex + gy * v.ey) / length, gp = (gy * v.ex - gx * v.ey) / length, gz = h.z / length;
+    const R h2 = dot(h, h), cosine = h2 / (2 * length * v.length);
+    if (!(v.up > 0)) {
+        const R ox = 2 * cosine * (ge * v.ex - gp * v.ey) - v.sin_theta * v.ex,
+                oy = 2 * cosine * (ge * v.ey + gp * v.ex) - v.sin_theta * v.ey;
+        using std::sin;
+        return {turn_of(ox, oy), 1 - cosine * gz / squared(R(sin(v.nu / 2)))};
+    }
+    // m^T Q m = wi.z |A m|^2 / length
+    const R up = wi.z > 0 ? wi.z : R(0);
+    return disk_point<R>(cone(v), {ge, gp, gz}, cosine, up * h2 / (length * length * v.length));
 }
 
 }  // namespace vndf::reference

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "reference/cap_maps.h"
 #include "reference/integrals.h"
 #include "reference/terms.h"
 
@@ -70,6 +71,8 @@ const Distribution::Known& Distribution::known(std::string_view density) {
         {"vndf_ggx_pdf_wi_eto2023_polygon_lobe", Kind::bounded, wi, ggx_eto2023_polygon<double>, true},
         {"vndf_ggx_pdf_wi_conic2026", Kind::conic, wi, ggx_conic2026<double>},
         {"vndf_ggx_pdf_wi_conic2026_lobe", Kind::conic, wi, ggx_conic2026<double>},
+        {"vndf_ggx_pdf_wi_cone2026", Kind::cone, wi, ggx_cone2026<double>},
+        {"vndf_ggx_pdf_wi_cone2026_lobe", Kind::cone, wi, ggx_cone2026<double>},
         {"vndf_ggx_pdf_wm_walter2007", Kind::ggx, wm_plain, ggx_walter2007<double>},
         {"vndf_beckmann_pdf_wm", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wm_lobe", Kind::beckmann, wm, beckmann_jakob2014<double>},
@@ -120,7 +123,7 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
     sigma_ = std::pow(std::sin(v.nu / 2), 2);
     tan_half_ = std::sin(v.theta / 2) / std::sin(v.nu / 2);
     const bool behind = !(wo.z > 0);  // where every reflection is that of the plain cap
-    kind_ = behind && ndf_of(known_.kind) == Ndf::ggx ? Kind::ggx : known_.kind;
+    kind_ = behind && ndf_of(known_.kind) == Ndf::ggx && known_.kind != Kind::cone ? Kind::ggx : known_.kind;
     const Slopes<double> s = beckmann_slopes(v.sin_theta, v.cos_theta);
     a_ = s.a, weight_ = s.weight;
     const Bound<double> b = known_.polygon ? polygon_bound(v, wo) : bound(v, wo);
@@ -129,6 +132,40 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
         k_ = 0, cap_ = visible_area();
         tabulate_azimuths();
     }
+    if (kind_ == Kind::cone) {
+        find_cone();
+        cap_ = 1;
+        tabulate_azimuths();
+        cap_ = mass_.back();
+        for (std::size_t i = 0; i < mass_.size(); ++i) mass_[i] /= cap_, slope_[i] /= cap_;
+    }
+}
+
+// The form of the cone in the slopes (x, y, 1), and its range of azimuths: all if it holds the normal of the surface.
+void Distribution::find_cone() {
+    const Light<double> cap = light_of<double>(vec3(lobe_.l), lobe_.one_minus_cos, precision_);
+    double q[3][3];
+    cap_matrix(light_view<double>(vec3(wo_), cap, alpha_x_, alpha_y_), q);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) q_[i][j] = q[i][j];
+    if (q[2][2] > 0) return;
+    // The discriminant of the form along an azimuth is a form of its cosine and sine.
+    const double xx = q[0][2] * q[0][2] - q[0][0] * q[2][2], yy = q[1][2] * q[1][2] - q[1][1] * q[2][2],
+                 xy = q[0][2] * q[1][2] - q[0][1] * q[2][2];
+    const double swing = std::hypot(xx - yy, 2 * xy);
+    middle_ = std::atan2(2 * xy, xx - yy) / 2;
+    half_ = std::acos(std::clamp(-(xx + yy) / swing, -1., 1.)) / 2;
+    if (q[0][2] * std::cos(middle_) + q[1][2] * std::sin(middle_) < 0) middle_ += middle_ > 0 ? -pi_d : pi_d;
+}
+
+// Of a cone that does not hold the normal of the surface the density ends as a root: not so in the sine's argument.
+double Distribution::azimuth_of(double place) const {
+    return half_ > 0 ? middle_ + half_ * std::sin(place) : place;
+}
+double Distribution::place_of(double phi) const {
+    if (!(half_ > 0)) return phi;
+    const double off = phi - middle_;
+    return std::asin(std::clamp((off - 2 * pi_d * std::round(off / (2 * pi_d))) / half_, -1., 1.));
 }
 
 // The area inside the horizon's curve, seen along the stretched wo, in units of pi. The normals that reflect to the horizon
@@ -187,16 +224,18 @@ double Distribution::visible_area() const {
 
 // The distribution function of the stretched azimuth, from the closed integral over the polar angle.
 void Distribution::tabulate_azimuths() {
-    const double start = -pi_d;
-    std::vector<double> edges{start, start + 2 * pi_d};
-    for (const double at : azimuth_breaks())
-        if (at > start && at < start + 2 * pi_d) edges.push_back(at);
+    const double start = half_ > 0 ? -pi_d / 2 : -pi_d, end = half_ > 0 ? pi_d / 2 : pi_d;
+    std::vector<double> edges{start, end};
+    for (const double at : azimuth_breaks()) {
+        const double place = place_of(at);
+        if (place > start && place < end) edges.push_back(place);
+    }
     std::sort(edges.begin(), edges.end());
     const std::vector<double> whole{std::numeric_limits<double>::infinity()};
-    const auto density = [&](double phi) {
+    const auto density = [&](double place) {
         double mass;
-        cumulative(phi, whole, &mass);
-        return mass;
+        cumulative(azimuth_of(place), whole, &mass);
+        return half_ > 0 ? mass * half_ * std::cos(place) : mass;
     };
     azimuth_ = {start}, mass_ = {0}, slope_ = {density(start)};
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
@@ -230,14 +269,14 @@ void Distribution::pivots_of(std::size_t n, const T* x, const T* y, const T* z, 
             const double turn = std::atan2(oy, ox) / (2 * pi_d);
             p1[i] = clip(turn < 0 ? turn + 1 : turn);
             p2[i] = clip((1 + cos_ - s * gz) / (2 * cap_));
-        } else if constexpr (kind == Kind::conic) {
-            const double phi = std::atan2(gy, gx);
+        } else if constexpr (kind == Kind::conic || kind == Kind::cone) {
+            const double azimuth = std::atan2(gy, gx), phi = place_of(azimuth);
             const auto above = std::upper_bound(azimuth_.begin() + 1, azimuth_.end() - 1, phi);
             const std::size_t j = static_cast<std::size_t>(above - azimuth_.begin()) - 1;
             const double h = azimuth_[j + 1] - azimuth_[j], t = (phi - azimuth_[j]) / h, r = 1 - t;
             p1[i] = clip(mass_[j] * r * r * (1 + 2 * t) + mass_[j + 1] * t * t * (1 + 2 * r) +
                          h * t * r * (slope_[j] * r - slope_[j + 1] * t));
-            p2[i] = clip(share_below(phi, std::sqrt(gx * gx + gy * gy) / gz));
+            p2[i] = clip(share_below(azimuth, std::sqrt(gx * gx + gy * gy) / gz));
         } else {
             const double ge = gx * ex_ + gy * ey_, gp = gy * ex_ - gx * ey_;
             if constexpr (kind == Kind::ggx) {
@@ -278,6 +317,8 @@ void Distribution::pivots(std::size_t n, const T* x, const T* y, const T* z, dou
             return pivots_of<T, Kind::bounded>(n, x, y, z, p1, p2);
         case Kind::conic:
             return pivots_of<T, Kind::conic>(n, x, y, z, p1, p2);
+        case Kind::cone:
+            return pivots_of<T, Kind::cone>(n, x, y, z, p1, p2);
         case Kind::beckmann:
             return pivots_of<T, Kind::beckmann>(n, x, y, z, p1, p2);
     }
@@ -294,6 +335,8 @@ std::array<double, 3> Distribution::draw(double u1, double u2) const {
     in.u1 = u1, in.u2 = u2, in.v1 = 1 - u1, in.v2 = 1 - u2;
     in.least_u = precision_ == Precision::f32 ? 0x1p-33 : 0x1p-65;
     in.rotation = 0;
+    const Light<double> cap = light_of<double>(vec3(lobe_.l), lobe_.one_minus_cos, precision_);
+    in.l = cap.l, in.one_minus_cos = cap.one_minus_cos, in.cap_part = cap.part;
     const Vec3<double> d = known_.map(in).direction;
     return {d.x, d.y, d.z};
 }
@@ -312,9 +355,11 @@ double Distribution::pivot_rounding() const {
                 d[i] = exact;
                 for (int j = 0; j < 2; ++j) {
                     const double change = std::abs(p[j] - q[j]);
-                    worst = std::max(worst, (kind_ == Kind::bounded || kind_ == Kind::conic) && j == 0
-                                                ? std::min(change, 1 - change)
-                                                : change);
+                    worst = std::max(
+                        worst,
+                        (kind_ == Kind::bounded || kind_ == Kind::conic || kind_ == Kind::cone) && j == 0
+                            ? std::min(change, 1 - change)
+                            : change);
                 }
             }
         }

@@ -23,6 +23,8 @@ struct Lobe {
     Vec3d wo{0, 0, 1};                // of any length, in the frame that n is given in
     Vec3d n{0, 0, 1};                 // of the surface, for the densities in world space
     double alpha_x = 1, alpha_y = 1;  // below 1e-8 as 1e-8
+    Vec3d l{0, 0, 1};                 // the centre of a cap, and its 1 - cos(beta)
+    double one_minus_cos = 1;
 };
 
 // First and second moments of a unit direction d, and the variances of the quantities averaged: the standard
@@ -81,19 +83,24 @@ class Distribution {
     // estimate from the lobe alone: pivot tests of float samples make sense where it is below about 1e-3.
     double pivot_rounding() const;
 
+    // sigma_C of a cone inside the hemisphere of normals, by quadrature over the azimuth.
+    double sigma_cap() const { return length_ * cap_; }
+
     // The probability that a visible normal reflects wo above the horizon, by quadrature along the horizon's curve; for the
     // density of those reflections alone. 1 behind the surface.
     double reflection_probability() const { return kind_ == Kind::conic ? cap_ / sigma_ : 1; }
 
   private:
-    // GGX reflections from the front: bounded, on their own cap; conic, above the horizon.
-    enum class Kind { ggx, bounded, conic, beckmann };
+    // GGX reflections from the front: bounded, on their own cap; conic, above the horizon. From anywhere: cone, in a cap of
+    // directions whose cone of normals is above the surface.
+    enum class Kind { ggx, bounded, conic, cone, beckmann };
     enum class Ndf { ggx, beckmann };
     static constexpr Ndf ndf_of(Kind kind) {
         switch (kind) {
             case Kind::ggx:
             case Kind::bounded:
             case Kind::conic:
+            case Kind::cone:
                 return Ndf::ggx;
             case Kind::beckmann:
                 return Ndf::beckmann;
@@ -111,6 +118,11 @@ class Distribution {
     double normaliser() const;
     double visible_area() const;
     void tabulate_azimuths();
+    void find_cone();
+    Range cone_range(double c, double s, double slope, double turn) const;
+    double azimuth_of(double place) const;
+    double place_of(double phi) const;
+    double polar_mass(double slope, double from, double to) const;
     double share_below(double phi, double tangent) const;
     Range range(double phi) const;
     void cumulative(double phi, const std::vector<double>& tan_theta, double* mass) const;
@@ -137,9 +149,12 @@ class Distribution {
     double tan_half_;    // tan(theta / 2)
     double a_, weight_;  // Beckmann: cot(theta) and N(a)
     double k_, gap_;     // bounded: o_z > -k cos, 1 - k
-    double cap_;         // bounded: (1 + k cos) / 2; conic: that of what is above the horizon
-    // Conic: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
+    double cap_;         // bounded: (1 + k cos) / 2; conic: that of what is above the horizon; cone: of what is in the cap
+    // Conic, cone: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
     std::vector<double> azimuth_, mass_, slope_;
+    // Cone: its form q m_j m_k in slopes; its azimuths are middle_ + half_ sin(azimuth_), all of them where half_ is 0.
+    std::array<std::array<double, 3>, 3> q_{};
+    double middle_ = 0, half_ = 0;
 };
 
 }  // namespace vndf::reference

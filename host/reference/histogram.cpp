@@ -62,6 +62,7 @@ double Distribution::normaliser() const {
     switch (kind_) {
         case Kind::bounded:
         case Kind::conic:
+        case Kind::cone:
             return cap_;
         case Kind::ggx:
             return sigma_;
@@ -75,6 +76,7 @@ Distribution::Range Distribution::range(double phi) const {
     const double infinity = std::numeric_limits<double>::infinity();
     const double c = std::cos(phi), s = std::sin(phi);
     const double cos_turn = c * ex_ + s * ey_, turn = (s * ex_ - c * ey_) / cos_turn, slope = sin_ * cos_turn;
+    if (kind_ == Kind::cone) return cone_range(c, s, slope, turn);
     if (kind_ == Kind::bounded || kind_ == Kind::conic) {
         // 2 (slope r + cos) > (1 - k) cos (1 + r^2), or cos (1 + |alpha r|^2): r below the positive root
         const double gap =
@@ -95,11 +97,30 @@ static double ggx_polar_mass(double cosine, double slope, double r) {
            2;
 }
 
-// Conic: the part of the mass at this stretched azimuth with stretched slopes shorter than `slope`.
+// The same from r to infinity, where nothing cancels for large r.
+static double ggx_polar_rest(double cosine, double slope, double r) {
+    return (cosine / (1 + r * r) + slope * (std::atan(1 / r) + r / (1 + r * r))) / 2;
+}
+double Distribution::polar_mass(double slope, double from, double to) const {
+    if (from > 1) return ggx_polar_rest(cos_, slope, from) - ggx_polar_rest(cos_, slope, to);
+    return ggx_polar_mass(cos_, slope, to) - ggx_polar_mass(cos_, slope, from);
+}
+
+// Between the roots of the cone's form a r^2 + 2 b r + c > 0, a < 0.
+Distribution::Range Distribution::cone_range(double c, double s, double slope, double turn) const {
+    const double a = c * c * q_[0][0] + 2 * c * s * q_[0][1] + s * s * q_[1][1],
+                 b = c * q_[0][2] + s * q_[1][2];
+    const double square = b * b - a * q_[2][2];
+    if (!(square > 0)) return {0, 0, slope, turn};
+    const double sum = b + std::copysign(std::sqrt(square), b), first = -sum / a, second = -q_[2][2] / sum;
+    return {std::max(0., std::min(first, second)), std::max(0., std::max(first, second)), slope, turn};
+}
+
+// Conic, cone: the part of the mass at this stretched azimuth with stretched slopes shorter than `tangent`.
 double Distribution::share_below(double phi, double tangent) const {
     const Range in = range(phi);
-    const double whole = ggx_polar_mass(cos_, in.slope, in.hi);
-    return whole > 0 ? ggx_polar_mass(cos_, in.slope, std::min(tangent, in.hi)) / whole : 0;
+    const double whole = polar_mass(in.slope, in.lo, in.hi);
+    return whole > 0 ? polar_mass(in.slope, in.lo, std::clamp(tangent, in.lo, in.hi)) / whole : 0;
 }
 
 // Per unit of phi, the mass at polar angles below each of the given ones (ascending).
@@ -107,11 +128,11 @@ void Distribution::cumulative(double phi, const std::vector<double>& tan_theta, 
     const Range in = range(phi);
     const double ax = alpha_x_ * std::cos(phi), ay = alpha_y_ * std::sin(phi);
     const double unstretch = 1 / std::sqrt(ax * ax + ay * ay), scale = 1 / (pi_d * normaliser());
-    const bool behind = cos_ < 0;
+    const bool behind = cos_ < 0 && kind_ != Kind::cone;
     // The integral from 0 to r, or behind the surface from r to infinity, where nothing cancels.
     const auto ggx = [&](double r) {
-        if (behind) return (cos_ / (1 + r * r) + in.slope * (std::atan(1 / r) + r / (1 + r * r))) / 2;
-        return ggx_polar_mass(cos_, in.slope, r);
+        if (kind_ == Kind::cone) return polar_mass(in.slope, in.lo, r);
+        return behind ? ggx_polar_rest(cos_, in.slope, r) : ggx_polar_mass(cos_, in.slope, r);
     };
     const auto beckmann = [&](double r) {
         if (behind) {
@@ -189,7 +210,11 @@ std::vector<double> Distribution::azimuth_breaks() const {
     for (int i = -2; i <= 6; ++i) {
         around(i * pi_d / 2, 8);
         around(e + i * pi_d / 2, i % 2 == 0 ? 14 : 8);
+        if (kind_ == Kind::cone) around(middle_ + i * pi_d / 2, 14);
     }
+    for (const double turn : {-2 * pi_d, 0., 2 * pi_d})
+        if (half_ > 0)
+            for (int j = -8; j <= 8; ++j) breaks.push_back(middle_ + turn + half_ * std::sin(j * pi_d / 16));
     std::sort(breaks.begin(), breaks.end());
     return breaks;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "reference/cap_maps.h"
 #include "reference/materials.h"
 #include "reference/terms.h"
 #include "reference/world.h"
@@ -42,12 +43,15 @@ Vec3<R> vec3(const R* in) {
     return {in[0], in[1], in[2]};
 }
 
-enum class Layout { wo_alpha_u, wo_alpha1_u, wo_n_alpha1_u, alpha_u };
+enum class Layout { wo_alpha_u, wo_alpha1_u, wo_n_alpha1_u, wo_cap_alpha_u, alpha_u };
 constexpr bool one_alpha(Layout layout) {
     return layout == Layout::wo_alpha1_u || layout == Layout::wo_n_alpha1_u;
 }
 constexpr std::size_t first_alpha(Layout layout) {
-    return layout == Layout::alpha_u ? 0 : layout == Layout::wo_n_alpha1_u ? 6 : 3;
+    return layout == Layout::alpha_u          ? 0
+           : layout == Layout::wo_n_alpha1_u  ? 6
+           : layout == Layout::wo_cap_alpha_u ? 7
+                                              : 3;
 }
 constexpr std::size_t scalars(Layout layout) {
     return first_alpha(layout) + (one_alpha(layout) ? 1 : 2) + 2;
@@ -63,6 +67,11 @@ Arguments<R> arguments(Layout layout, const R* in, Precision precision) {
     if (layout == Layout::wo_n_alpha1_u) {
         a.n = normalised(vec3(in));
         in += 3;
+    }
+    if (layout == Layout::wo_cap_alpha_u) {
+        const Light<R> cap = light_of(vec3(in), in[3], precision);
+        a.l = cap.l, a.one_minus_cos = cap.one_minus_cos, a.cap_part = cap.part;
+        in += 4;
     }
     a.alpha_x = clamped_alpha(*in++, precision);
     a.alpha_y = one_alpha(layout) ? a.alpha_x : clamped_alpha(*in++, precision);
@@ -95,7 +104,7 @@ void evaluate_sampler_pdf(const R* in, R* out, Precision precision) {
     out[3] = finite(s.pdf, precision);
 }
 
-using D = Dual<double, 10>;
+using D = Dual<double, 12>;
 
 template <Sample<D> (*map)(const Arguments<D>&), Layout layout>
 double sampler_condition(const double* in, Precision precision) {
@@ -150,6 +159,8 @@ struct Entry {
     X(vndf_ggx_sample_wi_conic2026, ggx_conic2026, wo_alpha_u)                            \
     X(vndf_ggx_sample_wi_conic2026_lobe, ggx_conic2026, wo_alpha_u)                       \
     X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)                 \
+    X(vndf_ggx_sample_wi_cone2026, ggx_cone2026, wo_cap_alpha_u)                          \
+    X(vndf_ggx_sample_wi_cone2026_lobe, ggx_cone2026, wo_cap_alpha_u)                     \
     X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                             \
     X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)        \
     X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)                  \
@@ -374,6 +385,44 @@ R ggx_reflection_probability_of(Reader<R> in) {
     return v.up > 0 ? R(ggx_sigma_visible(v) / Ggx::sigma(v)) : R(1);
 }
 template <class R>
+Light<R> cap_in(Reader<R>& in) {
+    const Vec3<R> l = in.vector();
+    return light_of(l, in.scalar(), in.precision);
+}
+template <class R>
+R ggx_pdf_wi_cone2026_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector();
+    const Light<R> cap = cap_in(in);
+    const Vec3<R> wi = in.vector();
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_pdf_wi_cone2026(wo, wi, cap, ax, ay);
+}
+template <class R>
+R ggx_sigma_cap_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector();
+    const Light<R> cap = cap_in(in);
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_sigma_cap(wo, cap, ax, ay);
+}
+template <class R>
+R ggx_cap_probability_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector();
+    const Light<R> cap = cap_in(in);
+    const R ax = in.alpha(), ay = in.alpha();
+    const R p = ggx_sigma_cap(wo, cap, ax, ay) / Ggx::sigma(view(normalised(wo), ax, ay));
+    return p < 1 ? p : R(1);
+}
+template <class R>
+void evaluate_cap_inverse(const R* in, R* out, Precision precision) {
+    Reader<R> reader{in, precision};
+    const Vec3<R> wo = reader.vector();
+    const Light<R> cap = cap_in(reader);
+    const Vec3<R> wi = reader.vector();
+    const R ax = reader.alpha(), ay = reader.alpha();
+    const DiskPoint<R> u = ggx_invert_cone2026(wo, wi, cap, ax, ay);
+    out[0] = u.u1, out[1] = u.u2;
+}
+template <class R>
 void evaluate_inverse(const R* in, R* out, Precision precision) {
     Reader<R> reader{in, precision};
     const Vec3<R> wo = reader.vector(), wi = reader.vector();
@@ -496,6 +545,11 @@ constexpr Entry<R> entries[] = {
     {"vndf_ggx_sigma_visible", evaluate_term<R, ggx_sigma_visible_of<R>>},
     {"vndf_ggx_reflection_probability", evaluate_term<R, ggx_reflection_probability_of<R>>},
     {"vndf_ggx_invert_wi_conic2026", evaluate_inverse<R>},
+    {"vndf_ggx_pdf_wi_cone2026", evaluate_term<R, ggx_pdf_wi_cone2026_of<R>>},
+    {"vndf_ggx_pdf_wi_cone2026_lobe", evaluate_term<R, ggx_pdf_wi_cone2026_of<R>>},
+    {"vndf_ggx_sigma_cap", evaluate_term<R, ggx_sigma_cap_of<R>>},
+    {"vndf_ggx_cap_probability", evaluate_term<R, ggx_cap_probability_of<R>>},
+    {"vndf_ggx_invert_wi_cone2026", evaluate_cap_inverse<R>},
     {"vndf_ggx_pdf_wm_benyoub2024", evaluate_term<R, ggx_pdf_wm_benyoub2024_of<R>>},
     {"vndf_ggx_slope_pdf", evaluate_term<R, of_two<R, ggx_slope_pdf<R>>>},
     {"vndf_ggx_slope_cdf", evaluate_term<R, of_two<R, ggx_slope_cdf<R>>>},
@@ -551,6 +605,12 @@ double condition(std::string_view sampler, const double* in, Precision precision
 
 double cap_margin(std::string_view density, const double* in, Precision precision) {
     constexpr double no_cap = std::numeric_limits<double>::infinity();
+    if (density.starts_with("vndf_ggx_pdf_wi_cone2026")) {
+        Reader<double> reader{in, precision};
+        reader.vector();
+        const Light<double> cap = cap_in(reader);
+        return chord_margin(reader.vector(), cap) / (precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
+    }
     const bool polygon = density.starts_with("vndf_ggx_pdf_wi_eto2023_polygon");
     if (!density.starts_with("vndf_ggx_pdf_wi_eto2023")) return no_cap;  // other arguments, too
     Reader<double> reader{in, precision};

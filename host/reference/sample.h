@@ -14,6 +14,8 @@ struct Arguments {
     R u1, v1, u2, v2;  // v = 1 - u, exact
     Real<R> least_u;   // the lower clamp of u
     R rotation;        // of e, 0
+    Vec3<R> l;         // the axis of a cap, and its 1 - cos(beta), in parts: cap_maps.h
+    R one_minus_cos, cap_part;
 };
 
 template <class R>

@@ -47,7 +47,7 @@ template <class R>
 R hypotenuse(const R& x, const R& y) {
     using std::abs, std::sqrt;
     const R scale = abs(x) < abs(y) ? R(abs(y)) : R(abs(x));
-    if (!(scale > 0)) return R(std::abs(value_of(x)) + std::abs(value_of(y)));  // +0, or NaN
+    if (!(scale > 0)) return R(abs(value_of(x)) + abs(value_of(y)));  // +0, or NaN
     return scale * sqrt(squared(R(x / scale)) + squared(R(y / scale)));
 }
 template <class R>

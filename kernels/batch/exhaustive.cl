@@ -77,6 +77,14 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     return vndf_impl_min(vndf_impl_min(first, second), third);
 }
 
+// Whether wi lies in the cap about l, wherever rounding may have moved it: by the chord between the directions.
+VNDF_FN int vndf_exhaustive_in_light(VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF_REAL4 wi) {
+    VNDF_REAL rcp_l = VNDF_R(1.0) / VNDF_SQRT(l.x * l.x + l.y * l.y + l.z * l.z);
+    VNDF_REAL rcp_wi = VNDF_R(1.0) / VNDF_SQRT(wi.x * wi.x + wi.y * wi.y + wi.z * wi.z);
+    VNDF_REAL x = wi.x * rcp_wi - l.x * rcp_l, y = wi.y * rcp_wi - l.y * rcp_l, z = wi.z * rcp_wi - l.z * rcp_l;
+    return VNDF_SQRT(x * x + y * y + z * z) <= VNDF_SQRT(VNDF_R(2.0) * one_minus_cos) + VNDF_R(32.0) * VNDF_EPSILON;
+}
+
 // Whether a reflection lies where its density is positive: in its cap, or above the horizon.
 #define VNDF_EXHAUSTIVE_INSIDE_vndf_ggx_pdf_wi_eto2023(wo, alpha, d) \
     vndf_exhaustive_in_cap(wo, alpha, d, vndf_exhaustive_eto2023(wo, alpha))
@@ -104,6 +112,8 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_UPPER_WI_LOBE_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
 #define VNDF_EXHAUSTIVE_UPPER_WI_CONIC2026_LOBE_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
+#define VNDF_EXHAUSTIVE_UPPER_WI_WO_CAP_ALPHA_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
+#define VNDF_EXHAUSTIVE_UPPER_WI_CONE2026_LOBE_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
 #define VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA1_U(d) (wo_z + d.z >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d, inside) (VNDF_EXHAUSTIVE_DOT(d, wo) >= VNDF_EXHAUSTIVE_SLACK)
 #define VNDF_EXHAUSTIVE_FACES_WM_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WM_WO_ALPHA_U(d, inside)
@@ -115,6 +125,9 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha_x, alpha_y), d)
 #define VNDF_EXHAUSTIVE_FACES_WI_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside)
 #define VNDF_EXHAUSTIVE_FACES_WI_CONIC2026_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA_U(d, inside)
+#define VNDF_EXHAUSTIVE_FACES_WI_WO_CAP_ALPHA_U(d, inside) \
+    vndf_exhaustive_in_light(VNDF_MAKE3(l_x, l_y, l_z), one_minus_cos, d)
+#define VNDF_EXHAUSTIVE_FACES_WI_CONE2026_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_CAP_ALPHA_U(d, inside)
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA1_U(d, inside) \
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha, alpha), d)
 

@@ -79,25 +79,31 @@ VNDF_FN struct vndf_impl_conic_turned vndf_impl_conic_cap_half(struct vndf_impl_
     return h;
 }
 
+// A reflection m, moved to (x, y, z), as a unit vector, and its density D / (2 n) for a normaliser n of wo as given.
+VNDF_FN struct vndf_impl_sample vndf_impl_conic_unit(struct vndf_impl_mirror m, VNDF_REAL x, VNDF_REAL y,
+                                                     VNDF_REAL z, VNDF_REAL alpha_x, VNDF_REAL alpha_y,
+                                                     VNDF_REAL n) {
+    struct vndf_impl_sample o;
+    // Only the direction of wo counts: the length that the mirror kept is divided out.
+    VNDF_REAL o2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    o.x = x * rcp;
+    o.y = y * rcp;
+    o.z = z * rcp;
+    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n * rcp, alpha_x, alpha_y);
+    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
+    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
+}
+
 // The unit reflection of wo about the unstretched normal of h, and its density D / (2 n), n = 2 sigma_vis of wo as
 // given. above: whether it is known to be above the surface.
 VNDF_FN struct vndf_impl_sample vndf_impl_conic_reflect(struct vndf_impl_conic_normal h, VNDF_REAL wo_x,
                                                         VNDF_REAL wo_y, VNDF_REAL wo_z, VNDF_REAL alpha_x,
                                                         VNDF_REAL alpha_y, VNDF_REAL n, int above) {
-    struct vndf_impl_sample o;
     struct vndf_impl_mirror m = vndf_impl_mirror_of(wo_x, wo_y, wo_z, h.x, h.y, h.z, alpha_x, alpha_y);
     // Above the surface the height is positive, and rounding denies it within its error of the horizon alone: mirrored
     // there, which keeps the length, and never 0.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON);
-    VNDF_REAL z = above ? height : m.z;
-    // Only the direction of wo counts: the length that the mirror kept is divided out.
-    VNDF_REAL o2 = VNDF_FMA(m.x, m.x, VNDF_FMA(m.y, m.y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
-    o.x = m.x * rcp;
-    o.y = m.y * rcp;
-    o.z = z * rcp;
-    VNDF_REAL pdf = vndf_impl_reflection_density(m.ratio, n * rcp, alpha_x, alpha_y);
-    o.pdf = m.defined && n > VNDF_R(0.0) ? vndf_impl_finite(pdf) : VNDF_R(0.0);
-    return vndf_impl_where(o2 > VNDF_R(0.0) && o2 <= VNDF_REAL_MAX, o);
+    return vndf_impl_conic_unit(m, m.x, m.y, above ? height : m.z, alpha_x, alpha_y, n);
 }
 
 // --- The lobe of one wo and alpha ---
@@ -110,11 +116,11 @@ struct vndf_ggx_conic2026 {
     VNDF_REAL twice_sigma;                   // of sigma_vis
     VNDF_REAL spread, rcp_spread;            // the squared radius of the disk
     VNDF_REAL x, y, z, length2;              // v and its square, mu = 1
-    VNDF_REAL e, f;                          // (e, f, 1) is parallel to e0
+    VNDF_REAL e, f, g;                       // parallel to e0; g is 1 but for a cone of ggx_cone2026.h
     VNDF_REAL e1x, e1y, e1z, e2x, e2y, e2z;  // parallel to e1 and e2
     VNDF_REAL step_1, step_2;                // from a radius times a direction to parts along e1 and e2
     VNDF_REAL along_1, along_2;              // v . e1 and v . e2 of these
-    VNDF_REAL s0, s2;                        // of v: parts along (e, f, 1) and e2
+    VNDF_REAL s0, s2;                        // of v: parts along (e, f, g) and e2
     VNDF_REAL dual_1, dual_2;                // from the product with e1 or e2 to the part along it
     VNDF_REAL rim_0, rim_1;
     VNDF_REAL slope_0, slope_2, share, bend;
@@ -201,6 +207,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_ggx_conic2026_of(struct vndf_ggx_lobe lob
     l.length2 = VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z));
     l.e = c.e;
     l.f = c.f;
+    l.g = VNDF_R(1.0);
     l.unit = above ? c.unit * v.scale : VNDF_R(1.0);
     l.cap = vndf_impl_conic_cap_of(v, l.wo_z);
     l.cap.x = above ? VNDF_R(0.0) : l.cap.x;
@@ -237,7 +244,7 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, l.length2 * left)));
     h.x = VNDF_FMA(tau, l.x, VNDF_FMA(m0, l.e, VNDF_FMA(m1, l.e1x, m2 * l.e2x)));
     h.y = VNDF_FMA(tau, l.y, VNDF_FMA(m0, l.f, VNDF_FMA(m1, l.e1y, m2 * l.e2y)));
-    h.z = VNDF_FMA(tau, l.z, VNDF_FMA(m1, l.e1z, VNDF_FMA(m2, l.e2z, m0)));
+    h.z = VNDF_FMA(tau, l.z, VNDF_FMA(m1, l.e1z, VNDF_FMA(m2, l.e2z, m0 * l.g)));
     return h;
 }
 
@@ -366,7 +373,7 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
                                                             struct vndf_impl_conic_normal m, VNDF_REAL twice,
                                                             VNDF_REAL height) {
     struct vndf_impl_disk_square d;
-    VNDF_REAL m0 = l.s0 * VNDF_FMA(l.e, m.x, VNDF_FMA(l.f, m.y, m.z));
+    VNDF_REAL m0 = l.s0 * VNDF_FMA(l.e, m.x, VNDF_FMA(l.f, m.y, l.g * m.z));
     VNDF_REAL m1 = l.dual_1 * VNDF_FMA(l.e1x, m.x, VNDF_FMA(l.e1y, m.y, l.e1z * m.z));
     VNDF_REAL m2 = l.dual_2 * VNDF_FMA(l.e2x, m.x, VNDF_FMA(l.e2y, m.y, l.e2z * m.z));
     VNDF_REAL slope = VNDF_FMA(l.slope_0, m0, l.slope_2 * m2),

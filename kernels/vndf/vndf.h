@@ -61,6 +61,7 @@
 #include "ggx_eto2023_polygon.h"
 #include "ggx_benyoub2024.h"
 #include "ggx_conic2026.h"
+#include "ggx_cone2026.h"
 #include "ggx_walter2007.h"
 
 #include "beckmann.h"

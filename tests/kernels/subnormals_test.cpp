@@ -47,6 +47,8 @@ class Ordinary {
                 values.push_back(std::exp(uniform(std::log(1e-3), std::log(10.))));
             else if (name == "u1" || name == "u2")
                 values.push_back(std::floor(uniform(0, 0x1p24)) * 0x1p-24);
+            else if (name == "one_minus_cos")
+                values.push_back(std::exp(uniform(std::log(1e-6), std::log(2.))));
             else if (name == "eta")
                 values.push_back(uniform(.4, 2.5));
             else if (name == "k")

@@ -153,6 +153,10 @@ std::ostream& operator<<(std::ostream& out, const Lobe& l) {
     return out << "cos " << l.cos_theta << " phi " << l.phi << " alpha " << l.ax << ", " << l.ay;
 }
 
+bool takes_cap(const Function& sampler) {
+    return sampler.arguments == "WO_CAP_ALPHA_U" || sampler.arguments == "CONE2026_LOBE_U";
+}
+
 // The scalars of `sampler` at a lobe, its normal tilted for world-space samplers.
 std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 0.5, double u2 = 0.5) {
     const double s = std::sqrt((1 - l.cos_theta) * (1 + l.cos_theta));
@@ -162,6 +166,11 @@ std::vector<double> scalars(const Function& sampler, const Lobe& l, double u1 = 
         sampler.arguments == "LOBE_U" || sampler.arguments == "BECKMANN_LOBE_U")
         return {x, y, z, l.ax, l.ay, u1, u2};
     if (sampler.arguments == "WO_ALPHA1_U") return {x, y, z, l.ax, u1, u2};
+    // A cap beside the mirror image of wo, whose cone of normals is above the surface for every lobe here.
+    if (takes_cap(sampler)) {
+        const double up = std::abs(z) + 0.3, length = std::sqrt(0.36 * s * s + up * up);
+        return {x, y, z, -0.6 * x / length, -0.6 * y / length, up / length, 0.02, l.ax, l.ay, u1, u2};
+    }
     // The frame turned by c = 0.6 about y: z -> n.
     return {0.6 * x - 0.8 * z, y, 0.8 * x + 0.6 * z, -0.8, 0, 0.6, l.ax, u1, u2};
 }
@@ -173,6 +182,7 @@ Distribution distribution_of(const Function& sampler, const Lobe& l) {
     const std::vector<double> in = scalars(sampler, l);
     if (sampler.arguments != "ALPHA_U") lobe.wo = {in[0], in[1], in[2]};
     if (sampler.arguments == "WO_N_ALPHA1_U") lobe.n = {in[3], in[4], in[5]};
+    if (takes_cap(sampler)) lobe.l = {in[3], in[4], in[5]}, lobe.one_minus_cos = in[6];
     return {sampler.density, lobe};
 }
 
@@ -430,7 +440,10 @@ namespace {
 
 // Where a density takes the direction among the scalars of its sampler.
 std::size_t direction_at(const Function& sampler) {
-    return sampler.arguments == "ALPHA_U" ? 0 : sampler.arguments == "WO_N_ALPHA1_U" ? 6 : 3;
+    return sampler.arguments == "ALPHA_U"         ? 0
+           : sampler.arguments == "WO_N_ALPHA1_U" ? 6
+           : takes_cap(sampler)                   ? 7
+                                                  : 3;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 //   g++ -std=c++20 -O2 tests/support/make_reference_table.cpp -o make_reference_table
 //   ./make_reference_table > tests/data/reference_50digits.csv          (some ten minutes)
-// (with the argument samplers, terms, conic, materials or frames: that part alone)
+// (with the argument samplers, terms, conic, materials, frames or cones: that part alone)
 //
 // Everything starts from the distributions of slopes
 //   GGX 1 / (pi (1 + x^2 + y^2)^2),  Beckmann exp(-x^2 - y^2) / pi  (alpha = 1),
@@ -339,8 +339,7 @@ struct Cone {
     Vec e0, e1, e2;
     Real mu, mu1, mu2;
 };
-Cone cone(const Vec& s, const Real& ax, const Real& ay) {
-    Real a[3][3] = {{-s.z * ax * ax, 0, s.x}, {0, -s.z * ay * ay, s.y}, {s.x, s.y, s.z}};
+Cone cone(Real (&a)[3][3], const Vec& s, const std::function<Real(const Cone&)>& side) {
     Real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int sweep = 0; sweep < 40; ++sweep)
         for (const auto& [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
@@ -368,12 +367,17 @@ Cone cone(const Vec& s, const Real& ax, const Real& ay) {
     if (a[order[1]][order[1]] > a[order[2]][order[2]]) std::swap(order[1], order[2]);
     const auto axis = [&](int i) { return Vec{v[0][order[i]], v[1][order[i]], v[2][order[i]]}; };
     Cone c{axis(0), axis(1), axis(2), a[order[0]][order[0]], -a[order[1]][order[1]], -a[order[2]][order[2]]};
-    if (c.e0.z < 0) c.e0 = Real(-1) * c.e0;
-    Real towards = dot(c.e1, s);
+    if (dot(c.e0, s) < 0) c.e0 = Real(-1) * c.e0;
+    Real towards = side(c);
     if (abs(towards) < Real(1e-60)) towards = abs(c.e1.x) < abs(c.e1.y) ? c.e1.y : c.e1.x;
     if (towards < 0) c.e1 = Real(-1) * c.e1;
     c.e2 = cross(c.e0, c.e1);
     return c;
+}
+
+Cone cone(const Vec& s, const Real& ax, const Real& ay) {
+    Real a[3][3] = {{-s.z * ax * ax, 0, s.x}, {0, -s.z * ay * ay, s.y}, {s.x, s.y, s.z}};
+    return cone(a, s, [&s](const Cone& c) { return dot(c.e1, s); });
 }
 
 // The area of the horizon's curve seen along s, over pi: an ellipse across e0 of semi-axes sqrt(mu / (mu + mu1)) and
@@ -391,14 +395,7 @@ Real pdf_wi_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) 
 
 // From the disk point (X, Y): the point with m1 = p Y on the chord between the rim points of that slice; along s without
 // s1 to the rim; along s to the sphere.
-Sample conic(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, const Real& u2) {
-    if (wo.z <= 0) {
-        const Sample m = cap(wo, ax, ay, u1, u2);
-        const Vec wi = reflect(wo, m.direction);
-        return {wi, pdf_wi(Ndf::ggx, wo, wi, ax, ay)};
-    }
-    const Vec s = unit({ax * wo.x, ay * wo.y, wo.z});
-    const Cone c = cone(s, ax, ay);
+Vec cone_normal(const Cone& c, const Vec& s, const Real& u1, const Real& u2) {
     const Real s0 = dot(s, c.e0), s1 = dot(s, c.e1), s2 = dot(s, c.e2), n = sqrt(s0 * s0 + s2 * s2);
     const Real x = sqrt(u2) * cos(2 * pi * u1), y = sqrt(u2) * sin(2 * pi * u1);
     const Real p2 = c.mu / (c.mu + c.mu1), q2 = c.mu / (c.mu + c.mu2);
@@ -412,22 +409,24 @@ Sample conic(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, cons
     m0 += c0 * epsilon, m2 += c2 * epsilon;
     const Real along = s0 * m0 + s1 * m1 + s2 * m2;
     const Real tau = sqrt(along * along + 1 - m0 * m0 - m1 * m1 - m2 * m2) - along;
-    const Vec m = (m0 + tau * s0) * c.e0 + (m1 + tau * s1) * c.e1 + (m2 + tau * s2) * c.e2;
-    const Vec wi = reflect(wo, unstretch(m, ax, ay));
+    return (m0 + tau * s0) * c.e0 + (m1 + tau * s1) * c.e1 + (m2 + tau * s2) * c.e2;
+}
+Sample conic(const Vec& wo, const Real& ax, const Real& ay, const Real& u1, const Real& u2) {
+    if (wo.z <= 0) {
+        const Sample m = cap(wo, ax, ay, u1, u2);
+        const Vec wi = reflect(wo, m.direction);
+        return {wi, pdf_wi(Ndf::ggx, wo, wi, ax, ay)};
+    }
+    const Vec s = unit({ax * wo.x, ay * wo.y, wo.z});
+    const Vec wi = reflect(wo, unstretch(cone_normal(cone(s, ax, ay), s, u1, u2), ax, ay));
     return {wi, pdf_wi_conic(wo, wi, ax, ay)};
 }
 
-// u of wi: the same lines backwards. Of vectors as given, not quite unit ones: wo . h is |h|^2 / 2 and m^T Q m is
-// wi.z |A m|^2 / t.
-Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
-    const Vec v = {ax * wo.x, ay * wo.y, wo.z}, s = unit(v), h = wo + wi;
-    const Cone c = cone(s, ax, ay);
-    const Vec h_std = {h.x / ax, h.y / ay, h.z}, m = unit(h_std);
+// u of a normal: the same lines backwards; along = s . m, height = m^T Q m.
+Reals invert_cone(const Cone& c, const Vec& s, const Vec& m, const Real& along, const Real& height) {
     const Real s0 = dot(s, c.e0), s1 = dot(s, c.e1), s2 = dot(s, c.e2), n = sqrt(s0 * s0 + s2 * s2);
     const Real c0 = s0 / n, c2 = s2 / n, f0 = c.mu + c.mu1, f2 = c.mu1 - c.mu2;
     const Real m0 = dot(m, c.e0), m1 = dot(m, c.e1), m2 = dot(m, c.e2);
-    const Real along = dot(h, h) / (2 * norm(h_std) * norm(v)),
-               height = wi.z * dot(h, h) / (dot(h_std, h_std) * norm(v));
     const Real a = f0 * c0 * c0 + f2 * c2 * c2, b = f0 * c0 * m0 + f2 * c2 * m2;
     const Real delta = (b - sqrt(b * b - a * height)) / a, tau = delta / n;
     const Real p2 = c.mu / f0, q2 = c.mu / (c.mu + c.mu2), y = (m1 - s1 * tau) / sqrt(p2);
@@ -435,6 +434,55 @@ Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay)
     const Real epsilon = f2 / f0 * q2 * left / (c0 * (rim + m0 - c0 * delta));
     const Real x = (m2 - c2 * (delta + epsilon)) / sqrt(q2), turn = atan2(y, x) / (2 * pi);
     return {turn < 0 ? Real(turn + 1) : turn, x * x + y * y};
+}
+// Of vectors as given, not quite unit ones: wo . h is |h|^2 / 2 and m^T Q m is wi.z |A m|^2 / t.
+Reals invert_conic(const Vec& wo, const Vec& wi, const Real& ax, const Real& ay) {
+    const Vec v = {ax * wo.x, ay * wo.y, wo.z}, h = wo + wi, h_std = {h.x / ax, h.y / ay, h.z};
+    return invert_cone(cone(unit(v), ax, ay), unit(v), unit(h_std), dot(h, h) / (2 * norm(h_std) * norm(v)),
+                       wi.z * dot(h, h) / (dot(h_std, h_std) * norm(v)));
+}
+
+// --- Reflections into a cap: 2 (wo . g)(l . g) > (cos beta + wo . l) |g|^2, g = A m ---
+
+struct Light {
+    Vec wo, l;
+    Real omc, ax, ay;
+};
+Light light(const Reals& in, int alpha) {
+    const auto at = [&](int i) { return unit(Vec{in[i], in[i + 1], in[i + 2]}); };
+    return {at(0), at(3), in[6], in[alpha], in[alpha + 1]};
+}
+Vec stretched(const Light& c, const Vec& w) {
+    return {c.ax * w.x, c.ay * w.y, w.z};
+}
+// For -wo outside the cap.
+Cone cone(const Light& c) {
+    const Vec v = stretched(c, c.wo), w = stretched(c, c.l);
+    const Real kappa = 1 - c.omc + dot(c.wo, c.l), x[3] = {v.x, v.y, v.z}, y[3] = {w.x, w.y, w.z},
+               scale[3] = {c.ax, c.ay, 1};
+    Real a[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            a[i][j] = x[i] * y[j] + y[i] * x[j] - (i == j ? Real(kappa * scale[i] * scale[i]) : Real(0));
+    return cone(a, v,
+                [&](const Cone& k) { return dot(k.e1, v) * dot(k.e0, w) - dot(k.e1, w) * dot(k.e0, v); });
+}
+Real sigma_cap(const Light& c) {
+    const Cone k = cone(c);
+    return dot(stretched(c, c.wo), k.e0) * k.mu / sqrt((k.mu + k.mu1) * (k.mu + k.mu2));
+}
+Real pdf_wi_cap(const Light& c, const Vec& h) {
+    return d(Ndf::ggx, unit(h), c.ax, c.ay) / (4 * sigma_cap(c));
+}
+Sample sample_cap(const Light& c, const Real& u1, const Real& u2) {
+    const Vec m = cone_normal(cone(c), unit(stretched(c, c.wo)), u1, u2);
+    const Vec wi = reflect(c.wo, unstretch(m, c.ax, c.ay));
+    return {wi, pdf_wi_cap(c, c.wo + wi)};
+}
+Reals invert_cap(const Light& c, const Vec& given) {
+    const Vec wi = unit(given), h = c.wo + wi, h_std = {h.x / c.ax, h.y / c.ay, h.z}, v = stretched(c, c.wo);
+    return invert_cone(cone(c), unit(v), unit(h_std), dot(h, h) / (2 * norm(h_std) * norm(v)),
+                       (dot(wi, c.l) - 1 + c.omc) * dot(h, h) / dot(h_std, h_std));
 }
 
 // The bound of the polygon: 1 / (1 - k) is the largest of the three candidates.
@@ -701,6 +749,20 @@ std::map<std::string, Evaluation> evaluations() {
         return Reals{cosine > 0 ? Real(cosine * d(Ndf::ggx, {m_across, 0, m_up}, in[9], in[9]) /
                                        sigma(Ndf::ggx, {across, 0, up}, in[9], in[9]))
                                 : Real(0)};
+    };
+    all["vndf_ggx_sample_wi_cone2026_with_pdf"] = [](const Reals& in) {
+        return list(sample_cap(light(in, 7), in[9], in[10]));
+    };
+    all["vndf_ggx_sigma_cap"] = [](const Reals& in) { return Reals{sigma_cap(light(in, 7))}; };
+    all["vndf_ggx_cap_probability"] = [](const Reals& in) {
+        const Light c = light(in, 7);
+        return Reals{sigma_cap(c) / sigma(Ndf::ggx, c.wo, c.ax, c.ay)};
+    };
+    all["vndf_ggx_pdf_wi_cone2026"] = [](const Reals& in) {
+        return Reals{pdf_wi_cap(light(in, 10), vec(in, 0) + vec(in, 7))};
+    };
+    all["vndf_ggx_invert_wi_cone2026"] = [](const Reals& in) {
+        return invert_cap(light(in, 10), vec(in, 7));
     };
     // About n and by cosines: the local functions of a direction with the same angle to the axis.
     const auto about = [](const Vec& n, const Vec& w) {
@@ -1114,6 +1176,40 @@ void conic(Table& table) {
     for (const Lobe& l : back_lobes) add(l);
 }
 
+// Small and large caps about the mirror image of wo, beside it and about z.
+void cones(Table& table) {
+    std::size_t k = 0;
+    const auto add = [&](const Lobe& l, double tilt, double omc) {
+        std::vector<double> w;
+        direction(l, w);
+        const double up = std::abs(w[2]) + tilt, length = std::sqrt(w[0] * w[0] + w[1] * w[1] + up * up);
+        w.insert(w.end(), {-w[0] / length, -w[1] / length, up / length, omc});
+        const auto join = [&w](std::initializer_list<double> b) {
+            std::vector<double> a = w;
+            a.insert(a.end(), b);
+            return a;
+        };
+        if (1 - omc + w[0] * w[3] + w[1] * w[4] + w[2] * w[5] < 0.02) return;  // -wo is in the cap
+        const double u1 = us[k % std::size(us)][0], u2 = us[k % std::size(us)][1];
+        ++k;
+        table.row("vndf_ggx_sample_wi_cone2026_with_pdf", join({l.ax, l.ay, u1, u2}));
+        table.row("vndf_ggx_sigma_cap", join({l.ax, l.ay}));
+        table.row("vndf_ggx_cap_probability", join({l.ax, l.ay}));
+        const Light cap = light({w[0], w[1], w[2], w[3], w[4], w[5], omc, l.ax, l.ay}, 7);
+        const Vec wi = sample_cap(cap, Real(0.31), Real(0.38)).direction;
+        const std::vector<double> row = join(
+            {static_cast<double>(wi.x), static_cast<double>(wi.y), static_cast<double>(wi.z), l.ax, l.ay});
+        table.row("vndf_ggx_pdf_wi_cone2026", row);
+        if (l.cos_theta > 1e-3 && l.ax > 1e-3 && l.ay > 1e-3) table.row("vndf_ggx_invert_wi_cone2026", row);
+    };
+    for (const Lobe& l : lobes) {
+        if (l.ax < 1e-4 || l.ay < 1e-4 || l.cos_theta > 0.99) continue;
+        if (l.cos_theta > 1e-3) add(l, 0, 0.125 * l.cos_theta * l.cos_theta);
+        add(l, 0.5, 0x1p-12);
+        add(l, 0.25, 0x1p-5);
+    }
+}
+
 void materials(Table& table) {
     for (const Lobe& l : lobes) {
         std::vector<double> in, wi;
@@ -1230,4 +1326,5 @@ int main(int argc, char** argv) {
     if (part.empty() || part == "conic") conic(table);
     if (part.empty() || part == "materials") materials(table);
     if (part.empty() || part == "frames") frames(table);
+    if (part.empty() || part == "cones") cones(table);
 }

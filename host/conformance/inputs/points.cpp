@@ -1,9 +1,12 @@
 #include "conformance/inputs/points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "splitmix64.h"
 
 namespace vndf::conformance {
 namespace {
@@ -60,6 +63,51 @@ Direction direction(double cos_theta, double phi) {
     return {sin_theta * x, sin_theta * y, cos_theta};
 }
 
+void place_cap(Point& point, bool contained) {
+    std::uint64_t seed = contained;
+    for (const double x : {point.wo[0], point.wo[2], point.wi[0], point.wi[2], point.alpha[0], point.alpha[1],
+                           point.u[0], point.u[1]})
+        seed = SplitMix64(seed ^ std::bit_cast<std::uint64_t>(x)).bits();
+    SplitMix64 random(seed);
+    const auto anywhere = [&] {
+        return direction(2 * random.uniform() - 1, 6.28318530717958648 * random.uniform());
+    };
+    const auto about = [&](const Direction& centre, double by) {
+        const Direction off = anywhere();
+        return normalised({centre[0] + by * off[0], centre[1] + by * off[1], centre[2] + by * off[2]});
+    };
+    const Direction& o = point.wo;
+    const int half = static_cast<int>(random.bits() % 8), exponent = static_cast<int>(random.bits() % 24);
+    double size = half == 0 ? 1 : std::ldexp(1 + random.uniform(), contained ? -exponent / 2 : -exponent);
+    const double chord = std::sqrt(2 * size);
+    switch (random.bits() % 8) {
+        case 0:
+            point.l = {-o[0], -o[1], o[2]};
+            break;
+        case 1:
+            point.l = anywhere();
+            break;
+        case 2:
+            point.l = {0, 0, 1};
+            break;
+        case 3:
+            point.l = about({-o[0], -o[1], -o[2]}, chord);
+            break;
+        default:
+            point.l = about(point.wi, chord * random.uniform());
+    }
+    if (contained) {
+        // theta_o + theta_l + beta < pi, where that leaves room for a cap; else about z.
+        const auto room = [&o](const Direction& l) {
+            const double across = std::sqrt((o[0] * o[0] + o[1] * o[1]) * (l[0] * l[0] + l[1] * l[1]));
+            return o[2] + l[2] > 0 ? 1 + o[2] * l[2] - across : 0;
+        };
+        if (room(point.l) < 0.05) point.l = {0, 0, 1};
+        size = std::min(size, 0.9 * room(point.l));
+    }
+    point.one_minus_cos = size;
+}
+
 Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,
                  std::array<double, 2> u, double eta) {
     Point point;
@@ -80,6 +128,7 @@ Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched nor
     point.wo = local ? wo : to_frame(n, wo);
     point.wm = local ? wm : to_frame(n, wm);
     point.wi = local ? wi : to_frame(n, wi);
+    place_cap(point, false);
     return point;
 }
 
@@ -99,6 +148,7 @@ double Point::scalar(std::string_view name) const {
                                          {"wm", &wm},
                                          {"wi", &wi},
                                          {"t", &t},
+                                         {"l", &l},
                                          {"w", &wo}})
         if (const double* value = component(prefix, *values)) return *value;
     if (const double* value = component("alpha", alpha)) return *value;
@@ -107,6 +157,7 @@ double Point::scalar(std::string_view name) const {
                                        {"u1", u[0]},
                                        {"u2", u[1]},
                                        {"eta", eta},
+                                       {"one_minus_cos", one_minus_cos},
                                        {"k", std::abs(x)},
                                        {"f0", u[0]},
                                        {"f90", u[1]},

@@ -29,6 +29,8 @@ struct Point {
     double cos_theta = 1, cos_theta_i = 1, cos_theta_m = 1;  // about n
     double wo_dot_wm = 1;
     std::array<double, 2> alpha{1, 1}, slope{0, 0}, u{0.5, 0.5};
+    Direction l{0, 0, 1};      // a cap, of any size, at or about wi, the mirror image of wo, z, -wo or anywhere
+    double one_minus_cos = 1;
     double x = 0, eta = 1.5;
 
     // The scalar of this column name ("wo_x", "alpha", ...). Throws std::invalid_argument if there is none.
@@ -43,6 +45,9 @@ struct Stretched {
 
 // The unit vector with this cosine and azimuth. |cos| near 1 and near 0 keep their relative precision.
 Direction direction(double cos_theta, double phi);
+
+// A cap for the point, drawn by its other numbers. Contained: one whose cone of normals is above the surface.
+void place_cap(Point& point, bool contained);
 
 // wo and normal are given in the frame of n.
 Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,

@@ -15,6 +15,7 @@ double length(const Direction& a) {
 RowReader::RowReader(const Function& function)
     : wo_(column(function, "wo_x")),
       n_(column(function, "n_x")),
+      l_(column(function, "l_x")),
       wm_(column(function, "wm_x")),
       wi_(column(function, "wi_x")),
       alpha_(column(function, "alpha_x")),
@@ -73,7 +74,8 @@ reference::Lobe RowReader::lobe(const double* row) const {
     const auto [ox, oy, oz] = cos_o_ < 0 ? wo(row) : of_cosine(row[cos_o_]);
     const auto [nx, ny, nz] = n(row);
     const auto [alpha_x, alpha_y] = alpha(row);
-    return {{ox, oy, oz}, {nx, ny, nz}, alpha_x, alpha_y};
+    const auto [lx, ly, lz] = l(row);
+    return {{ox, oy, oz}, {nx, ny, nz}, alpha_x, alpha_y, {lx, ly, lz}, has_cap() ? row[l_ + 3] : 1};
 }
 
 double RowReader::cos_theta_o(const double* row) const {

@@ -99,7 +99,7 @@ Finding unit(runtime::Evaluator& evaluator, const Function& sampler, const Point
 }
 
 // wo = -n, where nothing is visible: a normal on the horizon, its reflection -wo, or (0, 0, 1) from a map that ends at the
-// horizon; with density 0.
+// horizon; of a cap some unit vector; with density 0.
 Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
                         const PointwiseOptions& options) {
     std::vector<Point> points;
@@ -122,9 +122,10 @@ Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
         const std::vector<double> row = table.row(i);
         const Direction d{results[0][i], results[1][i], results[2][i]}, n = reader.n(row.data());
         double off = length_error(results, i);
-        if (sampler.domain == Domain::upper || sampler.result == "WI")
+        const bool anywhere = reader.has_cap();
+        if (!anywhere && (sampler.domain == Domain::upper || sampler.result == "WI"))
             off = std::max({off, std::abs(d[0]), std::abs(d[1]), std::abs(d[2] - 1)});
-        else
+        else if (!anywhere)
             off = std::max(off, std::abs(dot(d, n)));
         if (sampler.with_pdf && results[3][i] != 0) off = 1;
         errors.add(off / epsilon(real), i);

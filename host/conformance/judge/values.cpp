@@ -71,10 +71,11 @@ bool is_inverse(const Function& function, const RowReader& reader, const double*
     const Direction o = reader.wo(row), d = reader.wi(row);
     const Direction h{o[0] + d[0], o[1] + d[1], o[2] + d[2]};
     if (!(std::abs(2 * dot(o, h) - dot(h, h)) < 0x1p-10 * dot(h, h))) return false;
-    const std::array<double, 2> alpha = reader.alpha(row);
-    const double in[7] = {o[0], o[1], o[2], alpha[0], alpha[1], u[0], u[1]};
+    std::vector<double> in;
+    for (const std::string& name : find_function(function.sampler)->inputs)
+        in.push_back(name == "u1" ? u[0] : name == "u2" ? u[1] : row[column(function, name)]);
     double back[4];
-    reference::find_evaluation<double>(function.sampler)(in, back, precision);
+    reference::find_evaluation<double>(function.sampler)(in.data(), back, precision);
     const Direction off{back[0] - d[0], back[1] - d[1], back[2] - d[2]};
     return length(off) < 0x1p-22;
 }
