@@ -109,7 +109,7 @@ VNDF_FN struct vndf_rgb vndf_impl_mixed(struct vndf_impl_bsdf_lobe s, struct vnd
     // The smaller share by a quotient, the larger as what is left: both keep their digits, and 0 leaves 1. Where rounding
     // has left nothing of either density it is the first one's.
     int less = other <= own;
-    VNDF_REAL lesser = (less ? other : own) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
+    VNDF_REAL lesser = VNDF_DIVIDE(less ? other : own, sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)),
               greater = VNDF_R(1.0) - lesser;
     VNDF_REAL share = less ? lesser : greater, rest = less ? greater : lesser;
     return vndf_impl_rgb(VNDF_FMA(share, d.weight.r, rest * s.weight.r),
@@ -185,7 +185,7 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn(struct vndf_impl_bsdf_view v
 #if VNDF_COAT
     VNDF_REAL rest = VNDF_R(1.0) - v.coat.share;
     int coated = u_lobe >= rest && rest < VNDF_R(1.0);
-    VNDF_REAL within = u_lobe / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
+    VNDF_REAL within = VNDF_DIVIDE(u_lobe, rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
     struct vndf_impl_bsdf_view chosen = v;
     chosen.facets = vndf_impl_bsdf_chosen_facets(v, coated);
     struct vndf_impl_drawn d = vndf_impl_bsdf_drawn_base(chosen, u, coated ? VNDF_R(-1.0) : within);

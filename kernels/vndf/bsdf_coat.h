@@ -31,11 +31,13 @@ struct vndf_impl_coat {
 VNDF_FN VNDF_REAL vndf_impl_coat_reflects(VNDF_REAL cosine, VNDF_REAL alpha) {
     VNDF_REAL c = vndf_impl_fresnel_cosine(cosine), rest = VNDF_R(1.0) - c, square = alpha * alpha;
 #if VNDF_CHOSEN(VNDF_NDF, beckmann)
-    VNDF_REAL wide = square / VNDF_FMA(alpha, VNDF_FMA(alpha, VNDF_R(5.6), VNDF_R(-1.0)), VNDF_R(1.75));
+    VNDF_REAL wide =
+        VNDF_DIVIDE(square, VNDF_FMA(alpha, VNDF_FMA(alpha, VNDF_R(5.6), VNDF_R(-1.0)), VNDF_R(1.75)));
     VNDF_REAL tail = VNDF_FMA(c, VNDF_R(-0.49), VNDF_R(1.0)),
               hidden = square * VNDF_FMA(square, VNDF_R(0.36), VNDF_R(-0.2));
 #else
-    VNDF_REAL wide = square / VNDF_FMA(alpha, VNDF_FMA(alpha, VNDF_R(5.25), VNDF_R(0.7)), VNDF_R(0.3));
+    VNDF_REAL wide =
+        VNDF_DIVIDE(square, VNDF_FMA(alpha, VNDF_FMA(alpha, VNDF_R(5.25), VNDF_R(0.7)), VNDF_R(0.3)));
     VNDF_REAL tail = VNDF_FMA(c, VNDF_R(0.19), VNDF_R(1.0)),
               hidden = square * VNDF_FMA(square, VNDF_R(-0.27), VNDF_R(0.62));
 #endif
@@ -62,7 +64,7 @@ VNDF_FN VNDF_REAL vndf_impl_coat_lets_through(struct vndf_impl_coat c, VNDF_REAL
                                               VNDF_REAL last) {
     VNDF_REAL rest = VNDF_R(1.0) - c.share, z = last >= VNDF_R(0.0) ? vndf_impl_abs(i.z) : VNDF_R(1.0);
     VNDF_REAL out = VNDF_FMA(-c.factor, vndf_impl_coat_reflects(z, c.alpha), VNDF_R(1.0));
-    VNDF_REAL part = vndf_impl_share(out / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0)));
+    VNDF_REAL part = vndf_impl_share(VNDF_DIVIDE(out, rest > VNDF_R(0.0) ? rest : VNDF_R(1.0)));
     return crosses == c.within ? part : VNDF_R(1.0);
 }
 

@@ -38,7 +38,7 @@ VNDF_FN struct vndf_impl_inwards vndf_impl_inwards_of(struct vndf_impl_interface
     w.kept = VNDF_FMA(less, q, VNDF_FMA(-strength, most, VNDF_R(1.0)));
     w.out = VNDF_FMA(less, VNDF_R(1.0) + q, strength * (VNDF_R(1.0) - most) * (dense * dense));
     // Nothing gets in where all is reflected.
-    w.again = strength * (q + most) / (w.kept > VNDF_R(0.0) ? w.kept : VNDF_R(1.0));
+    w.again = VNDF_DIVIDE(strength * (q + most), w.kept > VNDF_R(0.0) ? w.kept : VNDF_R(1.0));
     w.out = w.out > VNDF_R(0.0) ? w.out : VNDF_R(1.0);
     // A weaker one bends less.
     w.bends = VNDF_FMA(strength, dense - VNDF_R(1.0), VNDF_R(1.0));
@@ -60,8 +60,8 @@ VNDF_FN struct vndf_impl_inwards vndf_impl_inwards_of(struct vndf_impl_interface
 VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_bsdf_lobe d;
     struct vndf_impl_interface n = v.media;
-    VNDF_REAL ior = vndf_impl_bsdf_index(v.b), dense = ior < VNDF_R(1.0) ? VNDF_R(1.0) / ior : ior,
-              x = dense - VNDF_R(1.0);
+    VNDF_REAL ior = vndf_impl_bsdf_index(v.b),
+              dense = ior < VNDF_R(1.0) ? VNDF_DIVIDE(VNDF_R(1.0), ior) : ior, x = dense - VNDF_R(1.0);
     VNDF_REAL q = x * VNDF_FMA(x, VNDF_FMA(x, VNDF_R(0.22263203), VNDF_R(1.27565832)), VNDF_R(2.267723));
     VNDF_REAL f_o = vndf_impl_bsdf_smooth_reflectance(v.o.z, n.eta),
               lets_in = vndf_impl_interface_passes(n, vndf_impl_interface_likely(n), f_o);
@@ -70,19 +70,19 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_
     struct vndf_impl_inwards w = vndf_impl_inwards_of(n, q, dense);
 #if VNDF_SPECULAR
     // Under a dark colour more gets in than it is drawn for.
-    lets_out *=
-        vndf_impl_interface_passes(n, n.gloss.most, f_o) / (lets_in > VNDF_R(0.0) ? lets_in : VNDF_R(1.0));
+    lets_out *= VNDF_DIVIDE(vndf_impl_interface_passes(n, n.gloss.most, f_o),
+                            lets_in > VNDF_R(0.0) ? lets_in : VNDF_R(1.0));
 #endif
-    VNDF_REAL scale = lets_out * ((VNDF_R(1.0) + q) / w.out);
+    VNDF_REAL scale = lets_out * VNDF_DIVIDE(VNDF_R(1.0) + q, w.out);
     d.share = (VNDF_R(1.0) - vndf_impl_bsdf_metal(v.b)) * (VNDF_R(1.0) - n.transmission) * lets_in;
-    VNDF_REAL red = v.b.albedo.r / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, w.again, VNDF_R(1.0));
-    VNDF_REAL green = v.b.albedo.g / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, w.again, VNDF_R(1.0));
-    VNDF_REAL blue = v.b.albedo.b / VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, w.again, VNDF_R(1.0));
+    VNDF_REAL red = VNDF_DIVIDE(v.b.albedo.r, VNDF_FMA(VNDF_R(1.0) - v.b.albedo.r, w.again, VNDF_R(1.0)));
+    VNDF_REAL green = VNDF_DIVIDE(v.b.albedo.g, VNDF_FMA(VNDF_R(1.0) - v.b.albedo.g, w.again, VNDF_R(1.0)));
+    VNDF_REAL blue = VNDF_DIVIDE(v.b.albedo.b, VNDF_FMA(VNDF_R(1.0) - v.b.albedo.b, w.again, VNDF_R(1.0)));
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
 #if VNDF_ROUGH_DIFFUSE
     struct vndf_impl_rough_diffuse rough =
         vndf_impl_rough_diffuse_under(v.o, i, w.bends, v.b.diffuse_roughness);
-    d.weight = vndf_impl_rgb_rougher(d.weight, rough, lets_out * w.kept / w.out, v.b.albedo);
+    d.weight = vndf_impl_rgb_rougher(d.weight, rough, VNDF_DIVIDE(lets_out * w.kept, w.out), v.b.albedo);
 #endif
     d.pdf = vndf_lambert_pdf_wi(i);
     return d;
@@ -122,7 +122,7 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_diffuse(struct vndf_impl_bsdf_
     lambert.pdf = vndf_lambert_pdf_wi(i);
 #endif
     d.share = VNDF_FMA(vndf_impl_bsdf_metal(v.b), v.multiple.share, lambert.share);
-    VNDF_REAL rcp = VNDF_R(1.0) / (d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), d.share > VNDF_R(0.0) ? d.share : VNDF_R(1.0));
     // Without a metal the weight is Lambert's, to the bit.
     VNDF_REAL own = d.share == lambert.share ? VNDF_R(1.0) : lambert.share * rcp;
     d.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_multiple(v.b, v.multiple, i), rcp);

@@ -29,7 +29,7 @@ VNDF_FN struct vndf_energy_factors vndf_impl_bsdf_glass_factors(VNDF_REAL3 wo, V
     struct vndf_energy_factors factors = vndf_energy_glass(wo, alpha, eta);
 #endif
 #if VNDF_THIN_WALLED
-    VNDF_REAL rest = one - loss, mirrors = one / (rest > VNDF_R(0.0) ? rest : one);
+    VNDF_REAL rest = one - loss, mirrors = VNDF_DIVIDE(one, rest > VNDF_R(0.0) ? rest : one);
     factors.reflected = body ? factors.reflected : mirrors;
     factors.refracted = body ? factors.refracted : mirrors;
 #else

@@ -174,11 +174,11 @@ VNDF_FN VNDF_REAL vndf_impl_facets_share(struct vndf_impl_facets c) {
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     // (k z + t) / (z + t). At wo = -z both are 0.
     VNDF_REAL whole = c.lobe.axis.height;
-    return vndf_impl_share(c.bound.height / (whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
+    return vndf_impl_share(VNDF_DIVIDE(c.bound.height, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
 #elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
     // sigma_vis / sigma.
     VNDF_REAL whole = vndf_impl_lobe_twice_sigma(c.lobe);
-    return vndf_impl_share(c.conic.twice_sigma / (whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
+    return vndf_impl_share(VNDF_DIVIDE(c.conic.twice_sigma, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
 #else
     (void)c;
     return VNDF_R(1.0);
@@ -254,7 +254,7 @@ VNDF_FN VNDF_REAL vndf_impl_facets_either_pdf(struct vndf_impl_facets c, struct 
 // G1 of a direction in front of the surface, from the root that the weight has, too.
 VNDF_FN VNDF_REAL vndf_impl_facets_shadowing(struct vndf_impl_facets c, VNDF_REAL3 w) {
     VNDF_REAL z = w.z * VNDF_R(134217728.0), sum = z + vndf_impl_ggx_stretched(c.lobe, w);
-    return vndf_impl_share(VNDF_R(2.0) * z / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)));
+    return vndf_impl_share(VNDF_DIVIDE(VNDF_R(2.0) * z, sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)));
 }
 
 // The normal of a half vector of the plain cap, and its density, as in ggx_dupuy2023.h.
@@ -262,12 +262,12 @@ VNDF_FN struct vndf_impl_sample vndf_impl_facets_normal(struct vndf_ggx_lobe v, 
     struct vndf_impl_sample m;
     VNDF_REAL gx = v.alpha_x * h.x, gy = v.alpha_y * h.y,
               length2 = VNDF_FMA(gx, gx, VNDF_FMA(gy, gy, h.z * h.z));
-    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_R(1.0) / length;
+    VNDF_REAL length = VNDF_SQRT(length2), rcp = VNDF_DIVIDE(VNDF_R(1.0), length);
     m.x = gx * rcp;
     m.y = gy * rcp;
     m.z = h.z * rcp;
-    VNDF_REAL ratio = length2 / VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z));
-    m.pdf = VNDF_1_PI * (ratio * length) / (v.axis.height * (v.alpha_x * v.alpha_y));
+    VNDF_REAL ratio = VNDF_DIVIDE(length2, VNDF_FMA(h.x, h.x, VNDF_FMA(h.y, h.y, h.z * h.z)));
+    m.pdf = VNDF_DIVIDE(VNDF_1_PI * (ratio * length), v.axis.height * (v.alpha_x * v.alpha_y));
     // At wo = -z, where nothing is visible, the height is 0.
     m.pdf = v.axis.height > VNDF_R(0.0) ? vndf_impl_finite(m.pdf) : VNDF_R(0.0);
     return vndf_impl_where(length2 > VNDF_R(0.0) && length2 <= VNDF_REAL_MAX, m);

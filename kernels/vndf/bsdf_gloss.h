@@ -26,7 +26,7 @@ VNDF_FN VNDF_REAL vndf_impl_gloss_excess(VNDF_REAL colour, VNDF_REAL rise) {
 }
 VNDF_FN struct vndf_impl_gloss vndf_impl_gloss_of(VNDF_REAL specular, struct vndf_rgb colour, VNDF_REAL ior) {
     struct vndf_impl_gloss g;
-    VNDF_REAL rise = VNDF_R(0.25) * ((ior - VNDF_R(1.0)) * ((ior - VNDF_R(1.0)) / ior));
+    VNDF_REAL rise = VNDF_R(0.25) * ((ior - VNDF_R(1.0)) * VNDF_DIVIDE(ior - VNDF_R(1.0), ior));
     // x is at least -250.
     VNDF_REAL red = vndf_impl_gloss_excess(colour.r, rise);
     VNDF_REAL green = vndf_impl_gloss_excess(vndf_impl_next_channel(colour.g, red + VNDF_R(1e3)), rise);

@@ -35,10 +35,10 @@ VNDF_FN struct vndf_impl_rough_diffuse vndf_impl_rough_diffuse_of(VNDF_REAL z_o,
                                                                   VNDF_REAL roughness) {
     struct vndf_impl_rough_diffuse d;
     VNDF_REAL r = vndf_impl_reflectance(roughness), c1 = VNDF_R(0.28779340921080621);
-    VNDF_REAL a = VNDF_R(1.0) / VNDF_FMA(c1, r, VNDF_R(1.0));
+    VNDF_REAL a = VNDF_DIVIDE(VNDF_R(1.0), VNDF_FMA(c1, r, VNDF_R(1.0)));
     // Both directions at the horizon, where the density is 0, leave nothing to divide by.
     VNDF_REAL t = vndf_impl_max(vndf_impl_max(z_o, z_i), VNDF_IMPL_LEAST);
-    d.single = (s > VNDF_R(0.0) ? s / t : s) - c1;
+    d.single = (s > VNDF_R(0.0) ? VNDF_DIVIDE(s, t) : s) - c1;
     VNDF_REAL loss_o = vndf_impl_rough_diffuse_loss(z_o);
     // Dependent on the loss along wo, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
     VNDF_REAL loss_i = vndf_impl_rough_diffuse_loss(loss_o <= VNDF_R(1.0) ? z_i : VNDF_R(1.0));
@@ -52,7 +52,8 @@ VNDF_FN struct vndf_impl_rough_diffuse vndf_impl_rough_diffuse_of(VNDF_REAL z_o,
 // Lambert's weight of one channel, and `scale` times what is beyond it. Rounding may leave a little less than nothing.
 VNDF_FN VNDF_REAL vndf_impl_rougher(VNDF_REAL weight, struct vndf_impl_rough_diffuse d, VNDF_REAL scale,
                                     VNDF_REAL albedo) {
-    VNDF_REAL again = albedo * albedo * d.average / VNDF_FMA(-albedo, VNDF_R(1.0) - d.average, VNDF_R(1.0));
+    VNDF_REAL again =
+        VNDF_DIVIDE(albedo * albedo * d.average, VNDF_FMA(-albedo, VNDF_R(1.0) - d.average, VNDF_R(1.0)));
     VNDF_REAL beyond = VNDF_FMA(albedo, d.single, again * d.multiple);
     return vndf_impl_max(VNDF_FMA(scale * d.excess, beyond, weight), VNDF_R(0.0));
 }
@@ -72,7 +73,7 @@ VNDF_FN struct vndf_rgb vndf_impl_rgb_rougher(struct vndf_rgb weight, struct vnd
 // k: a fit over the index in [1, 3], with the cosines behind the interface. Error of all reflected light: 0.7 %.
 VNDF_FN struct vndf_impl_rough_diffuse vndf_impl_rough_diffuse_under(VNDF_REAL3 o, VNDF_REAL3 i,
                                                                      VNDF_REAL dense, VNDF_REAL roughness) {
-    VNDF_REAL rcp = VNDF_R(1.0) / dense, s = VNDF_FMA(o.x, i.x, o.y * i.y) * (rcp * rcp);
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), dense), s = VNDF_FMA(o.x, i.x, o.y * i.y) * (rcp * rcp);
     int none = dense == VNDF_R(1.0);
     VNDF_REAL bent_o = vndf_fresnel_cos_theta_t(o.z, dense), z_o = none ? o.z : bent_o;
     // Dependent on the other, so that LLVM's SLP pass does not pack the two; the other choice is never taken.

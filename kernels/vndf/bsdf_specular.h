@@ -37,7 +37,7 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_metallic(struct vndf_impl_bsdf_view v, VN
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
     f = vndf_impl_bsdf_raised(v.b, f, v.o);
 #endif
-    return vndf_impl_rgb_scaled(f, VNDF_R(1.0) / (often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
+    return vndf_impl_rgb_scaled(f, VNDF_DIVIDE(VNDF_R(1.0), often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
 }
 
 #endif
@@ -52,7 +52,7 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_transmitted(struct vndf_impl_bsdf_view v,
 #else
     VNDF_REAL eta = v.media.eta;
 #endif
-    part /= eta * eta;
+    part = VNDF_DIVIDE(part, eta * eta);
 #endif
 #if VNDF_TINT
     return vndf_impl_rgb_scaled(v.b.transmittance, part);
@@ -99,7 +99,7 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
     struct vndf_impl_odds odds = vndf_impl_odds_of(n, f);
     VNDF_REAL drawn = vndf_impl_bsdf_metal_drawn(v);
     VNDF_REAL share = s.crosses ? odds.refracted : drawn + odds.reflected;
-    VNDF_REAL rcp = VNDF_R(1.0) / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), share > VNDF_R(0.0) ? share : VNDF_R(1.0));
     VNDF_REAL mirrored = vndf_impl_facets_weight(v.facets, raised);
     // Straight through is not masked.
     VNDF_REAL masked = n.eta == VNDF_R(1.0) ? VNDF_R(1.0) : vndf_impl_facets_shadowing(v.facets, raised);

@@ -139,7 +139,7 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
 #else
     n.body = n.transmits;
 #endif
-    n.eta = n.body && side < VNDF_R(0.0) ? VNDF_R(1.0) / ior : ior;
+    n.eta = n.body && side < VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), ior) : ior;
     n.plain = n.body && n.eta < VNDF_R(1.0);
 #if VNDF_SPECULAR
     n.gloss = vndf_impl_gloss_of(b.specular, b.specular_colour, ior);
@@ -171,7 +171,7 @@ VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct v
     VNDF_REAL bright = VNDF_R(1.0) - vndf_impl_interface_likely(n);
     VNDF_REAL upright = vndf_fresnel_dielectric(VNDF_R(1.0), n.eta),
               in = vndf_impl_interface_passes(n, vndf_impl_interface_most(n), upright);
-    weaker = vndf_impl_share((VNDF_R(1.0) - upright) / (in > VNDF_R(0.0) ? in : VNDF_R(1.0)));
+    weaker = vndf_impl_share(VNDF_DIVIDE(VNDF_R(1.0) - upright, in > VNDF_R(0.0) ? in : VNDF_R(1.0)));
     weaker = n.body && in > VNDF_R(0.0) ? weaker : VNDF_R(1.0);
     counts *= n.body ? bright : VNDF_R(1.0);
 #endif
@@ -205,7 +205,7 @@ VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VN
 #else
     VNDF_REAL sum = n.transmission < VNDF_R(1.0) ? back + through : VNDF_R(1.0);
 #endif
-    VNDF_REAL rcp = VNDF_R(1.0) / (sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), sum > VNDF_R(0.0) ? sum : VNDF_R(1.0));
     back *= rcp;
     through *= rcp;
 #endif
@@ -286,7 +286,7 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(struct vndf_impl_bsdf_view v, VNDF_REAL
 #if VNDF_TERMINATOR
     VNDF_REAL most = wi.z * z;
     int fading = height_i < most;
-    VNDF_REAL g = fading ? height_i / (fading ? most : VNDF_R(1.0)) : VNDF_R(1.0);
+    VNDF_REAL g = fading ? VNDF_DIVIDE(height_i, fading ? most : VNDF_R(1.0)) : VNDF_R(1.0);
     VNDF_REAL part = g * VNDF_FMA(g, VNDF_R(1.0) - g, VNDF_R(1.0));
     return above ? part : VNDF_R(0.0);
 #endif
@@ -317,7 +317,7 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_coat(struct vndf_impl_bsdf_vie
     VNDF_REAL3 wi = VNDF_MAKE3(i.x, i.y, last >= VNDF_R(0.0) ? i.z : VNDF_R(1.0));
     VNDF_REAL f = vndf_fresnel_dielectric(vndf_impl_half_cosine(v.o, wi), VNDF_IMPL_COAT_IOR);
     VNDF_REAL share = v.coat.share, light = v.coat.factor * f * vndf_impl_facets_weight(facets, wi);
-    VNDF_REAL weight = light / (share > VNDF_R(0.0) ? share : VNDF_R(1.0));
+    VNDF_REAL weight = VNDF_DIVIDE(light, share > VNDF_R(0.0) ? share : VNDF_R(1.0));
     l.weight = vndf_impl_rgb(weight, weight, weight);
     l.share = crosses ? VNDF_R(0.0) : share;
     l.pdf = vndf_impl_facets_pdf(facets, wi);

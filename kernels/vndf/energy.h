@@ -75,7 +75,7 @@ VNDF_FN VNDF_REAL vndf_energy_average_loss(VNDF_REAL2 alpha) {
 // The weight of single scattering, raised. Not reciprocal.
 // Source: Turquin, Practical Multiple Scattering Compensation for Microfacet Models, 2019, Equation 16: 1 + F0 (1 - E) / E.
 VNDF_FN struct vndf_rgb vndf_impl_turquin(struct vndf_rgb weight, struct vndf_rgb f0, VNDF_REAL loss) {
-    VNDF_REAL rest = VNDF_R(1.0) - loss, raised = loss / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
+    VNDF_REAL rest = VNDF_R(1.0) - loss, raised = VNDF_DIVIDE(loss, rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
     // Each channel depends on the last, so that LLVM's SLP pass does not pack them; the other choice is never taken.
     VNDF_REAL red = weight.r * VNDF_FMA(f0.r, raised, VNDF_R(1.0));
     VNDF_REAL green = (red >= VNDF_R(0.0) ? weight.g : red) * VNDF_FMA(f0.g, raised, VNDF_R(1.0));
@@ -99,13 +99,13 @@ struct vndf_impl_kulla_conty {
 
 VNDF_FN VNDF_REAL vndf_impl_kulla_conty_factor(VNDF_REAL f, VNDF_REAL average) {
     VNDF_REAL bounded = vndf_impl_reflectance(f), rest = VNDF_FMA(-bounded, average, VNDF_R(1.0));
-    return bounded * bounded * (VNDF_R(1.0) - average) / (rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
+    return VNDF_DIVIDE(bounded * bounded * (VNDF_R(1.0) - average), rest > VNDF_R(0.0) ? rest : VNDF_R(1.0));
 }
 // f: the mean of the reflectance by the cosine law.
 VNDF_FN struct vndf_impl_kulla_conty vndf_impl_kulla_conty_of(struct vndf_rgb f, VNDF_REAL loss,
                                                               VNDF_REAL average) {
     struct vndf_impl_kulla_conty lobe;
-    VNDF_REAL ratio = loss / vndf_impl_max(average, VNDF_IMPL_LEAST_AVERAGE);
+    VNDF_REAL ratio = VNDF_DIVIDE(loss, vndf_impl_max(average, VNDF_IMPL_LEAST_AVERAGE));
     // Each channel depends on the last, so that LLVM's SLP pass does not pack them; the other choice is never taken.
     VNDF_REAL red = vndf_impl_kulla_conty_factor(f.r, average);
     VNDF_REAL green = vndf_impl_kulla_conty_factor(red >= VNDF_R(0.0) ? f.g : VNDF_R(1.0), average);
@@ -115,7 +115,7 @@ VNDF_FN struct vndf_impl_kulla_conty vndf_impl_kulla_conty_of(struct vndf_rgb f,
     VNDF_REAL most = vndf_impl_max(vndf_impl_max(f.r, f.g), f.b),
               factor = vndf_impl_max(vndf_impl_max(red, green), blue);
     VNDF_REAL own = loss * factor, whole = VNDF_FMA(most, VNDF_R(1.0) - loss, own);
-    lobe.share = own / (whole > VNDF_R(0.0) ? whole : VNDF_R(1.0));
+    lobe.share = VNDF_DIVIDE(own, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0));
     return lobe;
 }
 #undef VNDF_IMPL_LEAST_AVERAGE

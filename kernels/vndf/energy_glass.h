@@ -48,7 +48,7 @@ struct vndf_impl_glass_cell {
 // The place of an index: the cosine of the angle of total reflection, on the denser side, over that of index 3.
 VNDF_FN VNDF_REAL vndf_impl_glass_layer(VNDF_REAL eta) {
     VNDF_REAL square = vndf_impl_abs(eta - VNDF_R(1.0)) * (eta + VNDF_R(1.0));
-    return VNDF_SQRT(square) / vndf_impl_max(eta, VNDF_R(1.0)) * VNDF_R(1.0606601717798212);
+    return VNDF_DIVIDE(VNDF_SQRT(square), vndf_impl_max(eta, VNDF_R(1.0))) * VNDF_R(1.0606601717798212);
 }
 
 // The place of a roughness is its root, and that of a direction as in energy.h, stretched by the root of the roughness: the loss
@@ -62,7 +62,8 @@ VNDF_FN struct vndf_impl_glass_cell vndf_impl_glass_cell_of(VNDF_REAL3 w, VNDF_R
     struct vndf_impl_between row = vndf_impl_between_of(VNDF_SQRT(effective), VNDF_ENERGY_GLASS_ROWS);
     // Each place depends on the last, so that LLVM's SLP pass does not pack them; the other choices are never taken. At -z nothing
     // is left of either.
-    l2 = row.share >= VNDF_R(0.0) ? l2 / (effective > VNDF_R(0.0) ? effective : VNDF_R(1.0)) : VNDF_R(0.0);
+    l2 = row.share >= VNDF_R(0.0) ? VNDF_DIVIDE(l2, effective > VNDF_R(0.0) ? effective : VNDF_R(1.0))
+                                  : VNDF_R(0.0);
     struct vndf_impl_between column =
         vndf_impl_between_of(vndf_impl_energy_place(l2, z), VNDF_ENERGY_GLASS_COLUMNS);
     VNDF_REAL place = column.share >= VNDF_R(0.0) ? vndf_impl_glass_layer(eta) : VNDF_R(0.0);
@@ -101,9 +102,9 @@ VNDF_FN VNDF_REAL vndf_impl_glass_part(struct vndf_impl_glass_cell cell, int fir
 VNDF_FN struct vndf_energy_factors vndf_energy_glass(VNDF_REAL3 w, VNDF_REAL2 alpha, VNDF_REAL eta) {
     struct vndf_energy_factors factors;
     struct vndf_impl_glass_cell cell = vndf_impl_glass_cell_of(w, alpha, eta);
-    VNDF_REAL one = VNDF_ENERGY_GLASS_ONE, back = one / vndf_impl_glass_part(cell, cell.first);
+    VNDF_REAL one = VNDF_ENERGY_GLASS_ONE, back = VNDF_DIVIDE(one, vndf_impl_glass_part(cell, cell.first));
     int other = back > VNDF_R(0.0) ? cell.first + 1 : 0;
-    VNDF_REAL through = one / vndf_impl_glass_part(cell, other);
+    VNDF_REAL through = VNDF_DIVIDE(one, vndf_impl_glass_part(cell, other));
     factors.reflected = eta == VNDF_R(1.0) ? VNDF_R(1.0) : back;
     factors.refracted = eta == VNDF_R(1.0) ? VNDF_R(1.0) : through;
     return factors;

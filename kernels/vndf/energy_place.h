@@ -42,7 +42,7 @@ VNDF_FN VNDF_REAL vndf_impl_energy_place(VNDF_REAL l2, VNDF_REAL cosine) {
     VNDF_REAL z = vndf_impl_max(cosine, VNDF_R(0.0)), l = VNDF_SQRT(l2), r = VNDF_SQRT(VNDF_FMA(z, z, l2));
     // 1 - l / (r + z), without the difference.
     VNDF_REAL both = (r + l) * (r + z);
-    return VNDF_SQRT(z * (r + l + z) / (both > VNDF_IMPL_LEAST ? both : VNDF_R(1.0)));
+    return VNDF_SQRT(VNDF_DIVIDE(z * (r + l + z), both > VNDF_IMPL_LEAST ? both : VNDF_R(1.0)));
 }
 
 VNDF_END

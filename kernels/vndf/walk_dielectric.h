@@ -26,7 +26,7 @@ VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_of(VNDF_REAL3
                                                                       VNDF_REAL2 alpha) {
     struct vndf_impl_walk_dielectric walk;
     walk.side = wo.z < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0);
-    walk.eta = walk.side < VNDF_R(0.0) ? VNDF_R(1.0) / eta : eta;
+    walk.eta = walk.side < VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), eta) : eta;
     walk.ray =
         vndf_impl_walk_of(VNDF_MAKE3(walk.side * wo.x, walk.side * wo.y, walk.side * wo.z), random, alpha);
     return walk;
@@ -46,13 +46,14 @@ VNDF_FN struct vndf_impl_walk_dielectric vndf_impl_walk_dielectric_onward(
                vndf_impl_dot(through.x, through.y, through.z, through.x, through.y, through.z) == VNDF_R(0.0);
     VNDF_REAL x = mirrored ? reflected.x : -through.x, y = mirrored ? reflected.y : -through.y,
               z = mirrored ? reflected.z : -through.z;
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)));  // no error adds up
+    VNDF_REAL rcp =
+        VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(VNDF_FMA(x, x, VNDF_FMA(y, y, z * z))));  // no error adds up
     walk.ray.x = x * rcp;
     walk.ray.y = y * rcp;
     walk.ray.z = z * rcp;
     walk.ray.depth = mirrored ? walk.ray.depth : vndf_impl_walk_other_depth(walk.ray.depth);
     walk.side = mirrored ? walk.side : -walk.side;
-    walk.eta = mirrored ? walk.eta : VNDF_R(1.0) / walk.eta;
+    walk.eta = mirrored ? walk.eta : VNDF_DIVIDE(VNDF_R(1.0), walk.eta);
     walk.ray = vndf_impl_walk_next(walk.ray, alpha);
     return walk;
 }
@@ -93,7 +94,7 @@ VNDF_FN VNDF_REAL vndf_impl_walk_dielectric_sent(struct vndf_impl_walk_dielectri
               z = VNDF_FMA(other, wi.z, back.z);
     VNDF_REAL length2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
     // Through a facet h points to the side of the lesser index, and a facet's normal up.
-    VNDF_REAL rcp = VNDF_R(1.0) / VNDF_SQRT(length2 > VNDF_R(0.0) ? length2 : VNDF_R(1.0));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2 > VNDF_R(0.0) ? length2 : VNDF_R(1.0)));
     rcp = z < VNDF_R(0.0) ? -rcp : rcp;
     VNDF_REAL3 wm = VNDF_MAKE3(x * rcp, y * rcp, z * rcp);
     VNDF_REAL cosine = vndf_impl_dot(back.x, back.y, back.z, wm.x, wm.y, wm.z),

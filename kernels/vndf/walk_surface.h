@@ -88,7 +88,7 @@ VNDF_FN VNDF_REAL vndf_impl_walk_mirrored_pdf(VNDF_REAL3 w, VNDF_REAL3 mirrored,
 VNDF_FN VNDF_REAL vndf_impl_walk_depth(VNDF_REAL depth, VNDF_REAL3 ray, VNDF_REAL2 alpha, VNDF_REAL u) {
     VNDF_REAL lambda = vndf_impl_walk_lambda(ray, alpha), way = -vndf_impl_log_of_share(u);
     int leaves = lambda > VNDF_R(-0.5) && way >= depth * lambda;  // down it is -1 at most
-    VNDF_REAL next = depth - way / (leaves ? VNDF_R(1.0) : lambda);
+    VNDF_REAL next = depth - VNDF_DIVIDE(way, leaves ? VNDF_R(1.0) : lambda);
     return leaves ? VNDF_R(-1.0) : vndf_impl_max(next, VNDF_R(0.0));  // below 0 by rounding
 }
 

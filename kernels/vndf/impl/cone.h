@@ -89,12 +89,12 @@ VNDF_FN VNDF_REAL vndf_impl_cone_rcp_mu(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z, V
     VNDF_REAL most = tx < ty ? ty : tx, least = tx < ty ? tx : ty;
     VNDF_REAL u = VNDF_FMA(z, VNDF_R(0.6), VNDF_FMA(most, VNDF_R(0.95), least * VNDF_R(0.3325)));
     struct vndf_impl_ratio mu = vndf_impl_cone_start(u, x2, y2, z, ax, ay);
-    mu = vndf_impl_cone_newton(mu.num / mu.den, x2, y2, z, ax, ay);
+    mu = vndf_impl_cone_newton(VNDF_DIVIDE(mu.num, mu.den), x2, y2, z, ax, ay);
 #if VNDF_DOUBLE
-    mu = vndf_impl_cone_newton(mu.num / mu.den, x2, y2, z, ax, ay);
+    mu = vndf_impl_cone_newton(VNDF_DIVIDE(mu.num, mu.den), x2, y2, z, ax, ay);
 #endif
-    mu = vndf_impl_cone_newton(mu.num / mu.den, x2, y2, z, ax, ay);
-    return mu.den / mu.num;
+    mu = vndf_impl_cone_newton(VNDF_DIVIDE(mu.num, mu.den), x2, y2, z, ax, ay);
+    return VNDF_DIVIDE(mu.den, mu.num);
 }
 
 // For wo.z > 0.
@@ -112,7 +112,7 @@ VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_cone_view v, VN
     c.bx = VNDF_R(1.0) + c.ax;
     c.by = VNDF_R(1.0) + c.ay;
     c.poles = c.bx * c.by;
-    c.rcp_poles = VNDF_R(1.0) / c.poles;
+    c.rcp_poles = VNDF_DIVIDE(VNDF_R(1.0), c.poles);
     c.e = c.x * (c.by * c.rcp_poles);
     c.f = c.y * c.rcp_poles * c.bx;
     c.xx = c.x * c.e;
@@ -125,7 +125,7 @@ VNDF_FN struct vndf_impl_cone vndf_impl_cone_of(struct vndf_impl_cone_view v, VN
 
 // sqrt(poles) mu / whole: sigma_vis of the v before it was scaled, above the surface.
 VNDF_FN VNDF_REAL vndf_impl_cone_area(struct vndf_impl_cone c, VNDF_REAL scale) {
-    return VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale) / (c.whole * c.unit);
+    return VNDF_DIVIDE(VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale), c.whole * c.unit);
 }
 
 VNDF_END

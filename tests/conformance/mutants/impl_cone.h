@@ -1,8 +1,9 @@
 // Seeded mistakes in impl/cone.h: rows of Mutant (mutants.h).
 {"conic: one of Newton's steps too few",
  "impl/cone.h",
- "    mu = vndf_impl_cone_newton(mu.num / mu.den, x2, y2, z, ax, ay);\n    return mu.den / mu.num;",
- "    return mu.den / mu.num;",
+ "    mu = vndf_impl_cone_newton(VNDF_DIVIDE(mu.num, mu.den), x2, y2, z, ax, ay);\n    return "
+ "VNDF_DIVIDE(mu.den, mu.num);",
+ "    return VNDF_DIVIDE(mu.den, mu.num);",
  "vndf_ggx_sigma_visible",
  {"pointwise, maximum"}},
     {"conic: the start forgets the term of the larger pole",
@@ -19,8 +20,8 @@
      {"pointwise", "integral"}},
     {"conic: the share of the horizon without its square root",
      "impl/cone.h",
-     "return VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale)",
-     "return c.bx * vndf_impl_rcp_power(scale)",
+     "VNDF_DIVIDE(VNDF_SQRT(c.poles) * vndf_impl_rcp_power(scale)",
+     "VNDF_DIVIDE(c.bx * vndf_impl_rcp_power(scale)",
      "vndf_ggx_sigma_visible",
      {"pointwise, maximum"}},
     {"conic: the matrix across e0 without one of its products",
