@@ -241,7 +241,7 @@ std::vector<Point> exhaustive_lobes(const Function& sampler) {
                 if (std::abs(wo[2]) == 1 && wo[0] == 0)
                     for (int k = 0; k < 3; ++k) point.wo[k] = wo[2] * axes[n][k];
                 place_cap(point, true);
-                if (column(sampler, "l_x") >= 0 && point.one_minus_cos < 1e-3 * (1 + wo[2])) continue;  // no room
+                if (column(sampler, "l_x") >= 0 && point.one_minus_cos <= 1e-3 * (1 + wo[2])) continue;  // no room
                 if (seen.insert(tabulate(sampler, {point}, runtime::Real::f32).row(0)).second)
                     points.push_back(point);
             }
