@@ -30,8 +30,9 @@ struct vndf_ggx_cone2026 {
 // sigma_C of the cone; for a cap of no size it shrinks with 1 - cos beta. (part: 1 - cos beta over what it counts as.)
 VNDF_FN VNDF_REAL vndf_impl_cap_sigma(struct vndf_impl_cap c, struct vndf_impl_cap_cone k,
                                       VNDF_REAL one_minus_cos) {
-    VNDF_REAL sigma = k.mu / (VNDF_SQRT(k.sum) * (k.length > VNDF_R(0.0) ? k.length : VNDF_R(1.0)));
-    VNDF_REAL part = vndf_impl_share(vndf_impl_max(one_minus_cos, VNDF_R(0.0)) / VNDF_IMPL_CAP_LEAST);
+    VNDF_REAL sigma = VNDF_DIVIDE(k.mu, VNDF_SQRT(k.sum) * (k.length > VNDF_R(0.0) ? k.length : VNDF_R(1.0)));
+    VNDF_REAL part =
+        vndf_impl_share(VNDF_DIVIDE(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_IMPL_CAP_LEAST));
     return c.defined && k.length > VNDF_R(0.0) ? sigma * part : VNDF_R(0.0);
 }
 
@@ -48,7 +49,7 @@ VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REA
     VNDF_REAL scale = vndf_impl_scale(level ? size : VNDF_R(1.0)), x = level ? ex * scale : VNDF_R(1.0),
               y = ey * scale;
     VNDF_REAL one = before > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(2.0),
-              rcp = one / VNDF_SQRT(VNDF_FMA(x, x, y * y));
+              rcp = VNDF_DIVIDE(one, VNDF_SQRT(VNDF_FMA(x, x, y * y)));
     f.by = x * rcp;
     f.bx = -(y * rcp);
     f.ax = f.by * ez;
@@ -72,7 +73,7 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     VNDF_REAL across_x = VNDF_FMA(k.ey, k.ey, k.ez * k.ez), across_y = VNDF_FMA(k.ex, k.ex, k.ez * k.ez),
               across_z = VNDF_FMA(k.ex, k.ex, k.ey * k.ey);
     VNDF_REAL along = VNDF_FMA(x2 * k.ex, k.ex, VNDF_FMA(y2 * k.ey, k.ey, k.ez * k.ez));
-    VNDF_REAL part = VNDF_IMPL_CAP_DOWN * kappa / VNDF_FMA(kappa, along, VNDF_R(1.0));
+    VNDF_REAL part = VNDF_DIVIDE(VNDF_IMPL_CAP_DOWN * kappa, VNDF_FMA(kappa, along, VNDF_R(1.0)));
     VNDF_REAL qa = VNDF_FMA(f.ax, k.qx, VNDF_FMA(f.ay, k.qy, f.az * k.qz));
     VNDF_REAL qb = VNDF_FMA(f.bx, k.qx, f.by * k.qy);
     // Of diagonal forms whatever is the same for all three axes makes no difference: that of x or y, which is more across e0.
@@ -104,19 +105,19 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     l.e2y = VNDF_FMA(ca, f.by, -cb * f.ay);
     l.e2z = -cb * f.az;
     l.rcp_spread = VNDF_R(2.0) * size * larger;
-    l.spread = VNDF_R(1.0) / l.rcp_spread;
+    l.spread = VNDF_DIVIDE(VNDF_R(1.0), l.rcp_spread);
     l.dual_1 = l.spread;
     l.dual_2 = l.spread;
     VNDF_REAL gap = size * vndf_impl_rcp_power(scale), m1 = VNDF_R(0.5) * (trace + gap),
               most = VNDF_R(1e36) * VNDF_IMPL_CAP_DOWN;
-    gap = vndf_impl_min(gap, most) / VNDF_IMPL_CAP_DOWN;
-    m1 = vndf_impl_min(m1, most) / VNDF_IMPL_CAP_DOWN;
-    VNDF_REAL m2 = vndf_impl_min(k.product * rcp_mu / m1 * rcp_mu, m1);  // 0 unless inside
+    gap = VNDF_DIVIDE(vndf_impl_min(gap, most), VNDF_IMPL_CAP_DOWN);
+    m1 = VNDF_DIVIDE(vndf_impl_min(m1, most), VNDF_IMPL_CAP_DOWN);
+    VNDF_REAL m2 = vndf_impl_min(VNDF_DIVIDE(k.product * rcp_mu, m1) * rcp_mu, m1);  // 0 unless inside
     gap = k.inside ? gap : VNDF_R(0.0);
     m1 = k.inside ? m1 : VNDF_R(0.0);
-    VNDF_REAL rcp_g1 = VNDF_R(1.0) / (VNDF_R(1.0) + m1);
+    VNDF_REAL rcp_g1 = VNDF_DIVIDE(VNDF_R(1.0), VNDF_R(1.0) + m1);
     // Made dependent on the first, so that the two are not packed (impl/stretch.h).
-    VNDF_REAL rcp_g2 = VNDF_R(1.0) / (rcp_g1 > VNDF_R(0.0) ? VNDF_R(1.0) + m2 : VNDF_R(1.0));
+    VNDF_REAL rcp_g2 = VNDF_DIVIDE(VNDF_R(1.0), rcp_g1 > VNDF_R(0.0) ? VNDF_R(1.0) + m2 : VNDF_R(1.0));
     // v . f = (e^T P f + q . f) / (2 omega), e = size e0: over v . e0.
     VNDF_REAL p = k.kappa * k.size, half_omega = VNDF_R(0.5) * (rcp * k.mu) * k.length;
     VNDF_REAL tx = VNDF_FMA(p * x2, k.ex, k.qx), ty = VNDF_FMA(p * y2, k.ey, k.qy),
@@ -214,7 +215,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_cone2026(struct vndf_ggx_cone2026 c, V
     // In the cap, as it is but for rounding: moved to the rim along the chord to l, to first order.
     VNDF_REAL x = m.x - c.lx, y = m.y - c.ly, z = m.z - c.lz;
     VNDF_REAL off = VNDF_R(0.5) * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
-    VNDF_REAL cut = c.inside && off > c.gap ? (c.gap - off) / (off * (VNDF_R(2.0) - off)) : VNDF_R(0.0);
+    VNDF_REAL cut =
+        c.inside && off > c.gap ? VNDF_DIVIDE(c.gap - off, off * (VNDF_R(2.0) - off)) : VNDF_R(0.0);
     struct vndf_impl_sample o =
         vndf_impl_conic_unit(m, VNDF_FMA(cut, x, m.x), VNDF_FMA(cut, y, m.y), VNDF_FMA(cut, z, m.z),
                              c.map.alpha_x, c.map.alpha_y, c.map.twice_sigma);
@@ -314,7 +316,7 @@ VNDF_FN VNDF_REAL vndf_ggx_cap_probability(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REA
                                            VNDF_REAL2 alpha) {
     VNDF_REAL sigma_cap = vndf_ggx_sigma_cap(wo, l, one_minus_cos, alpha), sigma = vndf_ggx_sigma(wo, alpha);
     int visible = sigma > VNDF_R(0.0) && sigma_cap < sigma;
-    return visible ? sigma_cap / sigma : (sigma_cap > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0));
+    return visible ? VNDF_DIVIDE(sigma_cap, sigma) : (sigma_cap > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(0.0));
 }
 
 // --- The inverse ---
@@ -329,10 +331,10 @@ VNDF_FN VNDF_REAL vndf_ggx_cap_probability(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REA
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_cone2026_lobe(struct vndf_ggx_cone2026 cone, VNDF_REAL3 wi) {
     struct vndf_ggx_conic2026 l = cone.map;
     VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
-    VNDF_REAL sx = hx / l.alpha_x, sy = hy / l.alpha_y;
+    VNDF_REAL sx = VNDF_DIVIDE(hx, l.alpha_x), sy = VNDF_DIVIDE(hy, l.alpha_y);
     VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
               h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_R(1.0) / VNDF_SQRT(length2) : VNDF_R(0.0);
+    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2)) : VNDF_R(0.0);
     struct vndf_impl_conic_normal m;
     m.x = sx * rcp;
     m.y = sy * rcp;
@@ -346,7 +348,7 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_cone2026_lobe(struct vndf_ggx_cone2026 con
     // All steps times 1 + m1, as in the map; of more than 1e18 (double: 1e150) squares would leave the range of numbers.
     VNDF_REAL steps = vndf_impl_min(l.unit, VNDF_IMPL_CAP_MOST);
     l.length2 = l.length2 * steps * steps;
-    struct vndf_impl_disk_square d = vndf_impl_conic_invert(l, m, twice * steps, height / steps);
+    struct vndf_impl_disk_square d = vndf_impl_conic_invert(l, m, twice * steps, VNDF_DIVIDE(height, steps));
     VNDF_REAL u1 = vndf_impl_share(vndf_impl_turn(d.x, d.y));
     VNDF_REAL u2 = cone.inside || up2 > VNDF_R(0.5) ? d.u2 : VNDF_R(1.0) - up2;
     u2 = vndf_impl_share(vndf_impl_max(u2, VNDF_R(0.0)));

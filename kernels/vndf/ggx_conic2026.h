@@ -85,7 +85,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic_unit(struct vndf_impl_mirror m, 
                                                      VNDF_REAL n) {
     struct vndf_impl_sample o;
     // Only the direction of wo counts: the length that the mirror kept is divided out.
-    VNDF_REAL o2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), rcp = VNDF_R(1.0) / VNDF_SQRT(o2);
+    VNDF_REAL o2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z)), rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(o2));
     o.x = x * rcp;
     o.y = y * rcp;
     o.z = z * rcp;
@@ -146,13 +146,14 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_conic_axes(struct vndf_ggx_conic2026
     VNDF_REAL w1 = VNDF_FMA(c.e, l.e1x, c.f * l.e1y);
     l.e1z = -w1;
     l.rcp_spread = VNDF_R(2.0) * size * major;
-    VNDF_REAL spread = VNDF_R(1.0) / l.rcp_spread;
+    VNDF_REAL spread = VNDF_DIVIDE(VNDF_R(1.0), l.rcp_spread);
     l.e2x = -l.e1y * c.bx;
     l.e2y = l.e1x * c.by;
     VNDF_REAL w2 = VNDF_FMA(c.y, l.e1x, -c.x * l.e1y);
     l.e2z = -w2;
     VNDF_REAL gap = size * vndf_impl_rcp_power(scale), m1 = VNDF_R(0.5) * (c.trace + gap);
-    VNDF_REAL rcp = VNDF_R(1.0) / (m1 * c.whole), rcp_whole = rcp * m1, m2 = c.product * (rcp * c.whole);
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), m1 * c.whole), rcp_whole = rcp * m1,
+              m2 = c.product * (rcp * c.whole);
     VNDF_REAL g1 = VNDF_R(1.0) + m1, rcp_g2 = g1 * rcp_whole, rcp_g1 = (VNDF_R(1.0) + m2) * rcp_whole;
     l.s0 = c.poles * rcp_whole;
     l.dual_1 = spread * rcp_g1;
@@ -181,7 +182,7 @@ VNDF_FN struct vndf_impl_conic_cap vndf_impl_conic_cap_of(struct vndf_impl_cone_
     cap.l2 = VNDF_FMA(v.x, v.x, v.y * v.y);
     cap.back = vndf_impl_rcp_power(v.scale);
     VNDF_REAL back2 = cap.back * cap.back;
-    cap.area = cap.l2 / (VNDF_SQRT(VNDF_FMA(z, z, cap.l2 * back2)) + vndf_impl_abs(z));
+    cap.area = VNDF_DIVIDE(cap.l2, (VNDF_SQRT(VNDF_FMA(z, z, cap.l2 * back2)) + vndf_impl_abs(z)));
     cap.p = cap.area * back2;
     cap.gap = VNDF_R(-2.0) * z;
     return cap;
@@ -234,14 +235,14 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     VNDF_REAL slope = VNDF_FMA(l.slope_2, m2, l.slope_0 * rim), bend = l.bend * l.share;
     VNDF_REAL root = VNDF_SQRT(VNDF_FMA(slope, slope, bend * rest));
     int rising = slope > VNDF_R(0.0);
-    VNDF_REAL step = (rising ? rest : root - slope) / (rising ? slope + root : bend);
+    VNDF_REAL step = VNDF_DIVIDE(rising ? rest : root - slope, rising ? slope + root : bend);
     VNDF_REAL epsilon = l.share * step, m0 = VNDF_FMA(epsilon, l.s0, rim);
     m2 = VNDF_FMA(epsilon, l.s2, m2);
     // What is left of the second chord; the sphere along v from P2: length2 tau^2 + 2 along tau - left = 0.
     VNDF_REAL left = step * (rim + m0);
     VNDF_REAL along = VNDF_FMA(l.along_1, m1, VNDF_FMA(l.along_2, m2, m0));
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
-    VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, l.length2 * left)));
+    VNDF_REAL tau = VNDF_DIVIDE(left, (along + VNDF_SQRT(VNDF_FMA(along, along, l.length2 * left))));
     h.x = VNDF_FMA(tau, l.x, VNDF_FMA(m0, l.e, VNDF_FMA(m1, l.e1x, m2 * l.e2x)));
     h.y = VNDF_FMA(tau, l.y, VNDF_FMA(m0, l.f, VNDF_FMA(m1, l.e1y, m2 * l.e2y)));
     h.z = VNDF_FMA(tau, l.z, VNDF_FMA(m1, l.e1z, VNDF_FMA(m2, l.e2z, m0 * l.g)));
@@ -340,7 +341,7 @@ VNDF_FN VNDF_REAL vndf_ggx_reflection_probability(VNDF_REAL3 w, VNDF_REAL2 alpha
     struct vndf_impl_cone_view v = vndf_impl_cone_view_of(alpha_x * w.x, alpha_y * w.y, w.z);
     struct vndf_impl_cone c = vndf_impl_cone_of(v, alpha_x, alpha_y);
     VNDF_REAL t = VNDF_SQRT(VNDF_FMA(c.x, c.x, VNDF_FMA(c.y, c.y, c.z * c.z)));
-    VNDF_REAL rcp = VNDF_R(1.0) / (c.whole * (t + c.z));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), c.whole * (t + c.z));
     VNDF_REAL p = VNDF_R(2.0) * VNDF_SQRT(c.poles * rcp * rcp);  // one root feeds the other (impl/stretch.h)
     return w.z > VNDF_R(0.0) ? vndf_impl_share(p) + vndf_impl_zero(w.x, w.y, w.z) : VNDF_R(1.0);
 }
@@ -379,16 +380,16 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
     VNDF_REAL slope = VNDF_FMA(l.slope_0, m0, l.slope_2 * m2),
               root2 = VNDF_FMA(slope, slope, -l.bend * height);
     VNDF_REAL root = VNDF_SQRT(root2 > VNDF_R(0.0) ? root2 : VNDF_R(0.0)), sum = slope + root;
-    VNDF_REAL tau = sum > VNDF_R(0.0) ? height / sum : VNDF_R(0.0);
+    VNDF_REAL tau = sum > VNDF_R(0.0) ? VNDF_DIVIDE(height, sum) : VNDF_R(0.0);
     // P2, and what was left of the second chord.
     VNDF_REAL rim2 = VNDF_FMA(-tau, l.s0, m0), left = tau * VNDF_FMA(-tau, l.length2, twice);
     m2 = VNDF_FMA(-tau, l.s2, m2);
-    d.y = VNDF_FMA(-tau, l.along_1 * l.dual_1, m1) / l.step_1;
+    d.y = VNDF_DIVIDE(VNDF_FMA(-tau, l.along_1 * l.dual_1, m1), l.step_1);
     VNDF_REAL y2 = d.y * (d.y * l.rcp_spread);
     VNDF_REAL rim = VNDF_SQRT(VNDF_FMA(l.rim_1, vndf_impl_share(y2), l.rim_0)), rims = rim + rim2;
-    VNDF_REAL step = rims > VNDF_R(0.0) ? left / rims : VNDF_R(0.0);
+    VNDF_REAL step = rims > VNDF_R(0.0) ? VNDF_DIVIDE(left, rims) : VNDF_R(0.0);
     m2 = VNDF_FMA(-l.share * step, l.s2, m2);
-    d.x = m2 / l.step_2;
+    d.x = VNDF_DIVIDE(m2, l.step_2);
     VNDF_REAL rest = step * (VNDF_FMA(l.slope_2, m2, l.slope_0 * rim) + root);
     VNDF_REAL square = VNDF_FMA(d.x, d.x * l.rcp_spread, y2);
     d.u2 = square > VNDF_R(0.5) ? VNDF_R(1.0) - rest : square;
@@ -404,10 +405,10 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
     VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
-    VNDF_REAL sx = hx / l.alpha_x, sy = hy / l.alpha_y;
+    VNDF_REAL sx = VNDF_DIVIDE(hx, l.alpha_x), sy = VNDF_DIVIDE(hy, l.alpha_y);
     VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
               h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_R(1.0) / VNDF_SQRT(length2) : VNDF_R(0.0);
+    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2)) : VNDF_R(0.0);
     // The stretched normal m between wo and wi, and half its cosine with v = alpha wo: |h|^2 / (2 |m|).
     struct vndf_impl_conic_normal m;
     m.x = sx * rcp;
@@ -420,11 +421,11 @@ VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VN
     // The cap: 1 - u2 = 2 (v . m) m.z / p, and the stretched reflection, whose part across z has the square
     // u2 p ((1 - u2) p + r - z).
     int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
-    VNDF_REAL rcp_p = !above && l.cap.p > VNDF_IMPL_LEAST ? VNDF_R(1.0) / l.cap.p : VNDF_R(0.0);
+    VNDF_REAL rcp_p = !above && l.cap.p > VNDF_IMPL_LEAST ? VNDF_DIVIDE(VNDF_R(1.0), l.cap.p) : VNDF_R(0.0);
     VNDF_REAL ox = VNDF_FMA(twice, m.x, -l.alpha_x * l.wo_x), oy = VNDF_FMA(twice, m.y, -l.alpha_y * l.wo_y);
     VNDF_REAL rest = twice * m.z * rcp_p;
     VNDF_REAL part = VNDF_FMA(VNDF_R(1.0) + vndf_impl_max(rest, VNDF_R(0.0)), l.cap.p, l.cap.gap);
-    VNDF_REAL u2 = VNDF_FMA(ox, ox, oy * oy) * rcp_p / (part > VNDF_R(0.0) ? part : VNDF_R(1.0));
+    VNDF_REAL u2 = VNDF_DIVIDE(VNDF_FMA(ox, ox, oy * oy) * rcp_p, part > VNDF_R(0.0) ? part : VNDF_R(1.0));
     u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
     VNDF_REAL u1 = vndf_impl_turn(above ? front.x : ox, above ? front.y : oy);
     u2 = vndf_impl_share(vndf_impl_max(above ? front.u2 : u2, VNDF_R(0.0)));
@@ -452,7 +453,7 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     VNDF_REAL b = above ? pole - z : wo.z;
     VNDF_REAL sum = VNDF_SQRT(VNDF_FMA(b, b, above ? c : l2 * back2)) + vndf_impl_abs(b);
     int rising = b > VNDF_R(0.0);
-    VNDF_REAL quotient = (above ? (rising ? sum + sum : VNDF_R(2.0)) : l2) / (rising ? c : sum);
+    VNDF_REAL quotient = VNDF_DIVIDE(above ? (rising ? sum + sum : VNDF_R(2.0)) : l2, rising ? c : sum);
     struct vndf_impl_conic_cap cap;
     cap.x = x;
     cap.y = y;
@@ -463,7 +464,8 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     cap.back = back;
     VNDF_REAL unit = above ? quotient : VNDF_R(1.0), a = pole * unit, bx = VNDF_R(1.0) + a, w1 = l2 * unit;
     z *= unit;
-    VNDF_REAL spread = VNDF_R(1.0) / (bx * l2), rcp = l2 * spread, tilt2 = w1 * unit, xx = tilt2 * rcp;
+    VNDF_REAL spread = VNDF_DIVIDE(VNDF_R(1.0), bx * l2), rcp = l2 * spread, tilt2 = w1 * unit,
+              xx = tilt2 * rcp;
     VNDF_REAL m1 = a + xx, g1 = bx + xx, m2 = a * g1;
     VNDF_REAL radius = VNDF_SQRT(d.u2 * (above ? spread : vndf_impl_conic_cap_spread(cap, d.rest)));
     VNDF_REAL ex = radius * d.cosine, ey = radius * d.sine;
@@ -471,12 +473,13 @@ VNDF_FN struct vndf_impl_sample vndf_impl_conic2026_isotropic(VNDF_REAL3 wo, VND
     VNDF_REAL along = VNDF_FMA(m1 * w1, ey, m0);
     along = along > VNDF_R(0.0) ? along : VNDF_R(0.0);  // it is, but for rounding
     VNDF_REAL left = g1 * d.rest;
-    VNDF_REAL tau = left / (along + VNDF_SQRT(VNDF_FMA(along, along, VNDF_FMA(z, z, tilt2) * left)));
+    VNDF_REAL tau =
+        VNDF_DIVIDE(left, (along + VNDF_SQRT(VNDF_FMA(along, along, VNDF_FMA(z, z, tilt2) * left))));
     struct vndf_impl_conic_turned m = vndf_impl_conic_cap_half(cap, ex, ey, d.rest);
     m.in = above ? VNDF_FMA(VNDF_FMA(m0, rcp, tau), unit, ey * bx) : m.in;
     m.across = above ? g1 * ex : m.across;
     m.z = above ? VNDF_FMA(tau, z, VNDF_FMA(-w1, ey, m0)) : m.z;
-    VNDF_REAL visible = VNDF_R(2.0) * back / (g1 * unit);  // sqrt(poles) is no root here
+    VNDF_REAL visible = VNDF_DIVIDE(VNDF_R(2.0) * back, g1 * unit);  // sqrt(poles) is no root here
     return vndf_impl_conic_reflect(vndf_impl_conic_turn(m, x, y), wo.x, wo.y, wo.z, alpha_x, alpha_y,
                                    above ? visible : cap.p, wo.z > VNDF_R(0.0));
 }

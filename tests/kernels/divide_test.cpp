@@ -4,8 +4,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
+#include <regex>
+#include <string>
 #include <vector>
 
 #include "parallel.h"
@@ -161,6 +165,25 @@ TEST_CASE("quotients and roots of our own are correctly rounded: the hardest, an
     check_roots(31);
     check_subnormal_quotients(std::size_t{1} << 18);
     check_random_quotients(std::size_t{1} << 22);
+}
+
+// Of numbers; integers are divided by 3 in the start of a cube root.
+TEST_CASE("every quotient in the headers is one of VNDF_DIVIDE") {
+    const std::regex comment("//.*"), quotient("[^/*]/=?[^/*]");
+    std::string found;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(CLVNDF_SOURCE_DIR "/kernels/vndf")) {
+        if (!entry.is_regular_file() || entry.path().filename() == "divide.h") continue;
+        std::ifstream file(entry.path());
+        for (std::string line; std::getline(file, line);) {
+            const std::string code = std::regex_replace(line, comment, "");
+            if (code.find("#include") == std::string::npos &&
+                code.find("VNDF_AS_INT(x) / 3") == std::string::npos &&
+                code.find("clvndf: ") == std::string::npos && std::regex_search(code, quotient))
+                found += entry.path().filename().string() + ": " + line + "\n";
+        }
+    }
+    CHECK(found == "");
 }
 
 // Minutes.

@@ -45,7 +45,7 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(VNDF_REAL wo_x, VNDF_REAL wo_y, VN
     VNDF_REAL less = -VNDF_FMA(sx, dx, VNDF_FMA(sy, dy, sz * dz));
     VNDF_REAL length = l2 + VNDF_SQRT(c.wo2 * l2);
     c.defined = vndf_impl_min(length, c.wo2) > VNDF_R(0.0) && length <= VNDF_REAL_MAX;
-    VNDF_REAL stretch = less / (c.defined ? length : VNDF_R(1.0));
+    VNDF_REAL stretch = VNDF_DIVIDE(less, c.defined ? length : VNDF_R(1.0));
     c.lx = VNDF_FMA(stretch, l.x, l.x);
     c.ly = VNDF_FMA(stretch, l.y, l.y);
     c.lz = VNDF_FMA(stretch, l.z, l.z);
@@ -110,7 +110,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_halley(VNDF_REAL x, struct vndf_impl_cubic q) {
     slope *= scale;
     f *= scale;
     VNDF_REAL den = VNDF_FMA(slope, slope, -f * (VNDF_FMA(VNDF_R(3.0), x, -q.t) * scale));
-    return den > VNDF_R(0.0) ? VNDF_FMA(-f, slope / den, x) : x;
+    return den > VNDF_R(0.0) ? VNDF_FMA(-f, VNDF_DIVIDE(slope, den), x) : x;
 }
 
 // The positive root, for d > 0.
@@ -122,7 +122,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_mu(struct vndf_impl_cubic q, VNDF_REAL reach) {
     int rising = q.m > VNDF_R(0.0);
     VNDF_REAL num = rising ? VNDF_R(2.0) * q.d : sum, den = rising ? sum : VNDF_R(-2.0) * t;
     int quotient = q.t <= VNDF_R(0.0) && num < above * den;
-    VNDF_REAL x = quotient ? num / (quotient ? den : VNDF_R(1.0)) : above;
+    VNDF_REAL x = quotient ? VNDF_DIVIDE(num, quotient ? den : VNDF_R(1.0)) : above;
     x = vndf_impl_cap_halley(x, q);
     x = vndf_impl_cap_halley(x, q);
 #if VNDF_DOUBLE
@@ -165,16 +165,16 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     k.z = wo_z;
     // N = mu + kappa A^2, and v^T v, w^T w over it.
     VNDF_REAL nx = VNDF_FMA(k.kappa, x2, k.mu), ny = VNDF_FMA(k.kappa, y2, k.mu), nz = k.kappa + k.mu;
-    VNDF_REAL rcp = VNDF_R(1.0) / (nx * ny), gx = ny * rcp, gy = rcp * nx,
-              gz = VNDF_R(1.0) /
-                   (rcp > VNDF_R(0.0) ? nz : VNDF_R(1.0));  // one feeds the other (impl/stretch.h)
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), nx * ny), gx = ny * rcp, gy = rcp * nx,
+              gz = VNDF_DIVIDE(VNDF_R(1.0),
+                               rcp > VNDF_R(0.0) ? nz : VNDF_R(1.0));  // one feeds the other (impl/stretch.h)
     VNDF_REAL hx = x2 * gx, hy = gy * y2;
     VNDF_REAL vv = VNDF_FMA(hx * wo_x, wo_x, VNDF_FMA(hy * wo_y, wo_y, gz * wo_z * wo_z));
     VNDF_REAL ww = VNDF_FMA(hx * c.lx, c.lx, VNDF_FMA(hy * c.ly, c.ly, gz * c.lz * c.lz));
     // omega = sqrt(ww / vv), and omega - 1 from sums and differences: omega v + w = v + w + (omega - 1) v.
     VNDF_REAL rise =
         VNDF_FMA(hx * c.more_x, c.sum_x, VNDF_FMA(hy * c.more_y, c.sum_y, gz * c.more_z * c.sum_z));
-    VNDF_REAL root = VNDF_SQRT(ww * vv), more = k.inside ? rise / (root + vv) : VNDF_R(0.0);
+    VNDF_REAL root = VNDF_SQRT(ww * vv), more = k.inside ? VNDF_DIVIDE(rise, root + vv) : VNDF_R(0.0);
     k.omega = VNDF_R(1.0) + more;
     VNDF_REAL ex = alpha_x * gx * VNDF_FMA(more, wo_x, c.sum_x),
               ey = alpha_y * gy * VNDF_FMA(more, wo_y, c.sum_y), ez = gz * VNDF_FMA(more, wo_z, c.sum_z);
@@ -182,7 +182,7 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     ey = k.inside ? ey : k.y;
     ez = k.inside ? ez : k.z;
     k.size = VNDF_SQRT(VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)));
-    VNDF_REAL rcp_e = VNDF_R(1.0) / (k.size > VNDF_R(0.0) ? k.size : VNDF_R(1.0));
+    VNDF_REAL rcp_e = VNDF_DIVIDE(VNDF_R(1.0), k.size > VNDF_R(0.0) ? k.size : VNDF_R(1.0));
     k.length = k.inside ? k.size * scale : rcp_e;
     k.ex = ex * rcp_e;
     k.ey = ey * rcp_e;
@@ -192,8 +192,8 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     k.qz = k.inside ? VNDF_FMA(more, wo_z, -c.more_z) : VNDF_R(0.0);
     k.mu = k.inside ? k.mu : VNDF_R(1.0);
     k.kappa = k.inside ? k.kappa : VNDF_R(0.0);
-    k.rcp = VNDF_R(1.0) / (rcp_e > VNDF_R(0.0) ? k.omega * k.mu : VNDF_R(1.0));
-    k.product = k.inside ? q.d / k.mu : VNDF_R(0.0);
+    k.rcp = VNDF_DIVIDE(VNDF_R(1.0), rcp_e > VNDF_R(0.0) ? k.omega * k.mu : VNDF_R(1.0));
+    k.product = k.inside ? VNDF_DIVIDE(q.d, k.mu) : VNDF_R(0.0);
     k.sum = VNDF_FMA(k.mu, k.inside ? VNDF_R(2.0) * k.mu - q.t : VNDF_R(1.0), k.product);
     return k;
 }
