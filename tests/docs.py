@@ -23,6 +23,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "bench/results/pocl-3.1.json"
+H100 = ROOT / "bench/results/nvidia-h100.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
@@ -158,6 +159,18 @@ def price():
         yield (f"`{sampler.removeprefix('vndf_')}`", steps(run, sampler, lambda entry: f"{entry['ns_per_sample']:.2f}"),
                run.ratio(ours["price"], "cached"), *(steps(run, sampler, error(f"angle_{p}")) for p in ("p50", "p99", "max")),
                *(steps(run, sampler, error(f"angle_back_{p}")) if back else "" for p in ("p99", "max")))
+
+
+def h100():
+    best = {b["run_name"]: b for b in json.loads(H100.read_text())["benchmarks"] if b["aggregate_name"] == "best"}
+    for name in sorted(best):
+        sampler, _, rest = name.removeprefix("vndf_").partition("/")
+        if rest != "strict/float/cached" or sampler.endswith("_lobe"):
+            continue
+        lean = best.get(name.replace("strict", "lean"))
+        yield (f"`{sampler}`", f"{1000 * best[name.replace('cached', 'stream')]['event_ns_per_sample']:.1f}",
+               f"{1000 * best[name]['ns_per_sample']:.1f}", f"{1000 * lean['ns_per_sample']:.1f}" if lean else "",
+               f"{best[name]['price']:.2f}" if lean else "")
 
 
 def spread():
@@ -345,6 +358,7 @@ TABLES = {
                                          ("strict", "lean", "published", "registers"))], instructions()),
     "calls": lambda build: table(["function", "common terms", "separate calls"], calls()),
     "price": lambda build: table(["sampler", "ns", "price", "median", "99 %", "maximum", "behind: 99 %", "maximum"], price()),
+    "h100": lambda build: table(["sampler", "from memory, ps", "in cache, ps", "lean, in cache, ps", "price"], h100()),
     "spread": lambda build: table(["mode", "two identical kernels differ by up to"], spread()),
     "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "times one", "structures", "distance as argument",
                                     "`float4`", "`vload3`"], layouts()),

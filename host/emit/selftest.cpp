@@ -1,6 +1,7 @@
 #include "emit/selftest.h"
 
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -71,6 +72,12 @@ std::string vector(const Options& options, const std::string& members, int size)
     return fmt::format("{}{{{}}}", options.language == Language::c ? '(' + type + ')' : type, members);
 }
 
+std::string lobe_signature(const Function& function) {
+    for (const LobeFunction& lobe : lobe_functions())
+        if (lobe.name == function.lobe) return lobe.signature;
+    return "";
+}
+
 // The call's arguments, out of the row a.
 std::string arguments(const Function& function, const Options& options) {
     const auto named = [&](const std::string& name) {
@@ -84,15 +91,18 @@ std::string arguments(const Function& function, const Options& options) {
         for (std::size_t i = 1; i < size; ++i) members += fmt::format(", a[{}]", first + static_cast<int>(i));
         return size == 1 ? members : vector(options, members, static_cast<int>(size));
     };
-    std::string text, rest = function.signature;
-    while (!rest.empty()) {
-        const std::string name = rest.substr(0, rest.find(','));
-        rest = name.size() == rest.size() ? "" : rest.substr(name.size() + 2);
-        if (!text.empty()) text += ", ";
-        text += name == "lobe" ? fmt::format("{}({}, {})", function.lobe, named("wo"), named("alpha"))
-                               : named(name);
-    }
-    return text;
+    const std::function<std::string(std::string)> all = [&](std::string rest) {
+        std::string text;
+        while (!rest.empty()) {
+            const std::string name = rest.substr(0, rest.find(','));
+            rest = name.size() == rest.size() ? "" : rest.substr(name.size() + 2);
+            if (!text.empty()) text += ", ";
+            text += name == "lobe" ? fmt::format("{}({})", function.lobe, all(lobe_signature(function)))
+                                   : named(name);
+        }
+        return text;
+    };
+    return all(function.signature);
 }
 
 std::string table_of(const Function& function, std::size_t index, const Options& options) {

@@ -302,7 +302,8 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma_cap(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_
     VNDF_REAL sigma = vndf_impl_cap_sigma(cap, vndf_impl_cap_cone_of(cap, wo.x, wo.y, wo.z, alpha_x, alpha_y),
                                           one_minus_cos);
     VNDF_REAL zero = vndf_impl_zero(wo.x, wo.y, wo.z) + vndf_impl_zero(l.x, l.y, l.z);
-    return vndf_impl_finite(sigma) + zero;
+    // Of vectors that are far from unit nothing may be left to divide by.
+    return (sigma > VNDF_R(0.0) ? vndf_impl_finite(sigma) : VNDF_R(0.0)) + zero;
 }
 
 // The probability that the reflection of wo about a visible normal lies in a cap.

@@ -30,6 +30,7 @@ inline const std::vector<Mutant>& mutants() {
 #include "mutants/geometry.h"
 #include "mutants/ggx.h"
 #include "mutants/ggx_benyoub2024.h"
+#include "mutants/ggx_cone2026.h"
 #include "mutants/ggx_conic2026.h"
 #include "mutants/ggx_cosines.h"
 #include "mutants/ggx_dupuy2023.h"

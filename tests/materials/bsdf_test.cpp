@@ -20,6 +20,7 @@
 #include "splitmix64.h"
 #include "support/bsdf_program.h"
 #include "support/catch.h"
+#include "support/shard.h"
 #include "support/skip.h"
 
 namespace {
@@ -957,7 +958,8 @@ TEST_CASE("every seeded mistake in a material is noticed") {
     std::vector<runtime::Substitution> all;
     for (const Mistake& m : mistakes())
         all.push_back({m.file, m.old_text, m.new_text, static_cast<int>(all.size()) + 1});
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [part, parts] = shard();
+    for (std::size_t i = part; i < all.size(); i += parts) {
         const Mistake& mistake = mistakes()[i];
         const Choice choice = choice_with(mistake.switches);
         const BsdfProgram program(choice.switches, {all[i]}, all[i].id);

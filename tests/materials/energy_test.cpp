@@ -277,12 +277,12 @@ TEST_CASE("quadrature finds that glass loses no light with the factors of the ta
 TEST_CASE("mistakes in the look-up of glass are noticed by quadrature") {
     const char* file = "kernels/vndf/energy_glass.h";
     const std::vector<runtime::Substitution> mistakes{
-        {file, "VNDF_SQRT(square) / vndf_impl_max(eta, VNDF_R(1.0))", "VNDF_SQRT(square)", 1},
+        {file, "VNDF_DIVIDE(VNDF_SQRT(square), vndf_impl_max(eta, VNDF_R(1.0)))", "VNDF_SQRT(square)", 1},
         {file, "(eta < VNDF_R(1.0) ? VNDF_ENERGY_GLASS_LAYERS : 0)",
          "(eta > VNDF_R(1.0) ? VNDF_ENERGY_GLASS_LAYERS : 0)", 1},
         {file, "vndf_impl_between_of(VNDF_SQRT(effective), VNDF_ENERGY_GLASS_ROWS)",
          "vndf_impl_between_of(effective, VNDF_ENERGY_GLASS_ROWS)", 1},
-        {file, "l2 / (effective > VNDF_R(0.0) ? effective : VNDF_R(1.0))", "l2", 1},
+        {file, "VNDF_DIVIDE(l2, effective > VNDF_R(0.0) ? effective : VNDF_R(1.0))", "l2", 1},
         {file, "int other = back > VNDF_R(0.0) ? cell.first + 1 : 0;",
          "int other = back > VNDF_R(0.0) ? cell.first : 0;", 1},
         {file, "VNDF_FMA(cell.column, b - a, a)", "a", 1},

@@ -32,10 +32,13 @@ inline std::vector<std::vector<double>> rows_with_zeros(const Function& function
     const auto directions = directions_with_zeros();
     std::vector<std::vector<double>> rows{{}};
     int vectors = 0, scalars = 0;
+    std::vector<bool> is_scalar;
     for (const std::string& name : function.inputs) {
         vectors += name.ends_with("_z");
-        scalars += name.find('_') == name.npos || name.starts_with("alpha") || name.starts_with("slope") ||
-                   name.starts_with("cos_theta") || name == "wo_dot_wm";
+        is_scalar.push_back(name.find('_') == name.npos || name.starts_with("alpha") ||
+                            name.starts_with("slope") || name.starts_with("cos_theta") ||
+                            name == "wo_dot_wm" || name == "one_minus_cos");
+        scalars += is_scalar.back();
     }
     for (int v = 0; v < vectors; ++v) {
         std::vector<std::vector<double>> longer;
@@ -59,8 +62,10 @@ inline std::vector<std::vector<double>> rows_with_zeros(const Function& function
     std::vector<std::vector<double>> all;
     for (const auto& row : rows)
         for (const auto& choice : choices) {
-            all.push_back(row);
-            all.back().insert(all.back().end(), choice.begin(), choice.end());
+            auto vector = row.begin();
+            auto scalar = choice.begin();
+            all.emplace_back();
+            for (const bool is : is_scalar) all.back().push_back(is ? *scalar++ : *vector++);
         }
     return all;
 }

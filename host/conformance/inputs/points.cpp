@@ -70,7 +70,9 @@ void place_cap(Point& point, bool contained) {
         seed = SplitMix64(seed ^ std::bit_cast<std::uint64_t>(x)).bits();
     SplitMix64 random(seed);
     const auto anywhere = [&] {
-        return direction(2 * random.uniform() - 1, 6.28318530717958648 * random.uniform());
+        const double azimuth =
+            6.28318530717958648 * random.uniform();  // compilers take arguments in any order
+        return direction(2 * random.uniform() - 1, azimuth);
     };
     const auto about = [&](const Direction& centre, double by) {
         const Direction off = anywhere();

@@ -182,6 +182,14 @@ class Run {
     std::uint32_t lobes_ = 0;
 };
 
+// Whether all of a cap is sampled with a density: not where wo leaves no room for it, nor where -wo lies next to its rim.
+bool has_room(const Point& point) {
+    double chord2 = 0;
+    for (int k = 0; k < 3; ++k) chord2 += (point.l[k] + point.wo[k]) * (point.l[k] + point.wo[k]);
+    return point.one_minus_cos > 1e-3 * (1 + point.wo[2]) &&
+           std::abs(std::sqrt(chord2) - std::sqrt(2 * point.one_minus_cos)) > 0x1p-11;
+}
+
 std::vector<Direction> hard_directions() {
     std::vector<Direction> directions;
     for (const double cosine : {1., 1 - 1e-7, .9, .5, .1, 1e-3, 1e-5, 1e-7, 1e-20, 0., -1e-20, -1e-7, -1e-5,
@@ -241,7 +249,7 @@ std::vector<Point> exhaustive_lobes(const Function& sampler) {
                 if (std::abs(wo[2]) == 1 && wo[0] == 0)
                     for (int k = 0; k < 3; ++k) point.wo[k] = wo[2] * axes[n][k];
                 place_cap(point, true);
-                if (column(sampler, "l_x") >= 0 && point.one_minus_cos <= 1e-3 * (1 + wo[2])) continue;  // no room
+                if (column(sampler, "l_x") >= 0 && !has_room(point)) continue;
                 if (seen.insert(tabulate(sampler, {point}, runtime::Real::f32).row(0)).second)
                     points.push_back(point);
             }
