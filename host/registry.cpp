@@ -44,7 +44,7 @@ std::vector<Function> read_functions() {
     { __VA_ARGS__ }
 #define VNDF_ROW(kind_, name_, ndf_, arguments_, result_, source_)        \
     Function f;                                                           \
-    f.name = f.plain = f.model = #name_, f.source = source_;                     \
+    f.name = f.plain = f.model = #name_, f.source = source_;              \
     f.arguments = #arguments_, f.signature = VNDF_ARGUMENTS_##arguments_; \
     f.lobe = lobe_of(VNDF_TEXT_OF(VNDF_CALL_##arguments_));               \
     f.result = #result_, f.kind = kind_, f.ndf = ndf_;                    \

@@ -38,9 +38,10 @@ double tangent_bound();
 double frame_bound();
 
 struct Function {
-    std::string name;       // with the suffix _with_pdf for that form of a sampler
-    std::string plain;      // without it
-    std::string model;      // whose reference it is compared with: itself, but of a user's function; empty: any map will do
+    std::string name;   // with the suffix _with_pdf for that form of a sampler
+    std::string plain;  // without it
+    std::string
+        model;  // whose reference it is compared with: itself, but of a user's function; empty: any map will do
     std::string arguments;  // the registry's token, e.g. "WO_ALPHA_U"
     std::string signature;  // "wo, alpha, u"
     std::string lobe;       // of one that takes a lobe, what sets it up

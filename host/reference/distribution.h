@@ -149,7 +149,8 @@ class Distribution {
     double tan_half_;    // tan(theta / 2)
     double a_, weight_;  // Beckmann: cot(theta) and N(a)
     double k_, gap_;     // bounded: o_z > -k cos, 1 - k
-    double cap_;         // bounded: (1 + k cos) / 2; conic: that of what is above the horizon; cone: of what is in the cap
+    double
+        cap_;  // bounded: (1 + k cos) / 2; conic: that of what is above the horizon; cone: of what is in the cap
     // Conic, cone: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
     std::vector<double> azimuth_, mass_, slope_;
     // Cone: its form q m_j m_k in slopes; its azimuths are middle_ + half_ sin(azimuth_), all of them where half_ is 0.

@@ -23,8 +23,8 @@ constexpr std::size_t whole_groups(std::size_t items) {
 }
 
 struct ProgramOptions {
-    std::string build_options;                    // appended, e.g. "-cl-fast-relaxed-math"; -cl-std=CL1.2 without another
-    bool correct_divide_sqrt = true;              // by the device or by our own code
+    std::string build_options;        // appended, e.g. "-cl-fast-relaxed-math"; -cl-std=CL1.2 without another
+    bool correct_divide_sqrt = true;  // by the device or by our own code
     std::string root = "kernels/batch/batch.cl";  // the source with the entry points
     std::vector<SourceFile> more_files;           // beside embedded_sources(); the root may be one of them
     std::string more_source;                      // OpenCL C after the root

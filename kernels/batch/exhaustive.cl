@@ -81,8 +81,10 @@ VNDF_FN VNDF_REAL vndf_exhaustive_polygon(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
 VNDF_FN int vndf_exhaustive_in_light(VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF_REAL4 wi) {
     VNDF_REAL rcp_l = VNDF_R(1.0) / VNDF_SQRT(l.x * l.x + l.y * l.y + l.z * l.z);
     VNDF_REAL rcp_wi = VNDF_R(1.0) / VNDF_SQRT(wi.x * wi.x + wi.y * wi.y + wi.z * wi.z);
-    VNDF_REAL x = wi.x * rcp_wi - l.x * rcp_l, y = wi.y * rcp_wi - l.y * rcp_l, z = wi.z * rcp_wi - l.z * rcp_l;
-    return VNDF_SQRT(x * x + y * y + z * z) <= VNDF_SQRT(VNDF_R(2.0) * one_minus_cos) + VNDF_R(32.0) * VNDF_EPSILON;
+    VNDF_REAL x = wi.x * rcp_wi - l.x * rcp_l, y = wi.y * rcp_wi - l.y * rcp_l,
+              z = wi.z * rcp_wi - l.z * rcp_l;
+    return VNDF_SQRT(x * x + y * y + z * z) <=
+           VNDF_SQRT(VNDF_R(2.0) * one_minus_cos) + VNDF_R(32.0) * VNDF_EPSILON;
 }
 
 // Whether a reflection lies where its density is positive: in its cap, or above the horizon.

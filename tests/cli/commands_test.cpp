@@ -77,9 +77,11 @@ TEST_CASE("every command runs to its end with every option") {
         "check --only vndf_reflect --quick --device \"$device\" --math strict --real float --points 1024 "
         "--json check.json --junit check.xml --report checked --all",
         "check --only vndf_reflect --quick --digest --on host",
-        "check --kernel \"$judge/right.cl\" --function my_sample --as ggx_sample_wm --pdf my_pdf --quick --points "
+        "check --kernel \"$judge/right.cl\" --function my_sample --as ggx_sample_wm --pdf my_pdf --quick "
+        "--points "
         "1024 --domain front --alpha 0.2:0.5 --isotropic --options -DX",
-        "check --kernel \"$judge/bsdf.cl\" --function my_value --as bsdf --pdf my_pdf --sample my_sample --quick "
+        "check --kernel \"$judge/bsdf.cl\" --function my_value --as bsdf --pdf my_pdf --sample my_sample "
+        "--quick "
         "--points 1024",
         "check --only vndf_reflect --digest --answers",
         "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
@@ -111,7 +113,8 @@ TEST_CASE("every command runs to its end with every option") {
              // Its own results, and the committed ones.
              "bench --only vndf_reflect/cpp --repetitions 3 --compare bench.json",
              "bench --only dupuy2023/strict --quick --repetitions 3 --alpha 0.1:1",
-             "bench --kernel \"$judge/right.cl\" --function my_pdf --as ggx_pdf_wm --options -DX --repetitions 3",
+             "bench --kernel \"$judge/right.cl\" --function my_pdf --as ggx_pdf_wm --options -DX "
+             "--repetitions 3",
              "bench --only dupuy2023/lean --advise --error 1e9 --domain front --repetitions 3",
              "bench --only vndf_reflect/cpp --repetitions 3 --compare \"$committed\""});
     }
@@ -128,7 +131,8 @@ TEST_CASE("every command runs to its end with every option") {
         const int status = shell(folder, "device='" + runtime::choose_device().device.name +
                                              "'\ncommitted='" CLVNDF_SOURCE_DIR
                                              "/bench/results/pocl-3.1.json'\n"
-                                             "judge='" CLVNDF_SOURCE_DIR "/tests/judge'\n"
+                                             "judge='" CLVNDF_SOURCE_DIR
+                                             "/tests/judge'\n"
                                              "PATH=/usr/bin:$PATH \"$clvndf\" " +
                                              line + " >out 2>err");
         CAPTURE(folder.read("err"));

@@ -29,7 +29,7 @@ struct Point {
     double cos_theta = 1, cos_theta_i = 1, cos_theta_m = 1;  // about n
     double wo_dot_wm = 1;
     std::array<double, 2> alpha{1, 1}, slope{0, 0}, u{0.5, 0.5};
-    Direction l{0, 0, 1};      // a cap, of any size, at or about wi, the mirror image of wo, z, -wo or anywhere
+    Direction l{0, 0, 1};  // a cap, of any size, at or about wi, the mirror image of wo, z, -wo or anywhere
     double one_minus_cos = 1;
     double x = 0, eta = 1.5;
 

@@ -18,7 +18,8 @@ struct PointwiseOptions {
     std::size_t hard_stride = 1;   // each hard_stride-th of the hard points
     std::size_t guard_stride = 1;  // and of the guards, which a percentile bears among many other points only
     bool quick = false;            // the lobes of a quick run
-    const Scope* scope = nullptr;  // of a user's function: random points in it and its corners, and its lobes, instead
+    const Scope* scope =
+        nullptr;  // of a user's function: random points in it and its corners, and its lobes, instead
 };
 
 // The lobes of a run with these options.

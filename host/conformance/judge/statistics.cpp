@@ -57,7 +57,8 @@ ChiSquare chi_square(std::span<const std::uint32_t> observed, std::span<const do
 }
 
 double same_distribution_p(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
-    const double all_a = std::accumulate(a.begin(), a.end(), 0.0), all_b = std::accumulate(b.begin(), b.end(), 0.0);
+    const double all_a = std::accumulate(a.begin(), a.end(), 0.0),
+                 all_b = std::accumulate(b.begin(), b.end(), 0.0);
     if (!(all_a > 0 && all_b > 0)) return 0;
     double statistic = 0, cells = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {

@@ -17,7 +17,7 @@ enum class Pictures { none, failed, all };
 
 struct CheckOptions {
     std::uint64_t seed = 1;
-    std::size_t more_tests = 0;  // statistical ones that the caller adds, at the report's level
+    std::size_t more_tests = 0;     // statistical ones that the caller adds, at the report's level
     std::size_t random_points = 0;  // of the pointwise comparison, beside the hard grid; 0: 2^16, quick 2^14
     bool quick = false;  // 12 lobes instead of 60 or more, 2^18 samples instead of 2^20, fewer points
     const Scope* scope = nullptr;  // of a user's functions (user_kernel.h)
