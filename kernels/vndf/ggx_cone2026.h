@@ -331,29 +331,22 @@ VNDF_FN VNDF_REAL vndf_ggx_cap_probability(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REA
 // The u at which a cone gives wi: as vndf_ggx_invert_wi_cone2026.
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_cone2026_lobe(struct vndf_ggx_cone2026 cone, VNDF_REAL3 wi) {
     struct vndf_ggx_conic2026 l = cone.map;
-    VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
-    VNDF_REAL sx = VNDF_DIVIDE(hx, l.alpha_x), sy = VNDF_DIVIDE(hy, l.alpha_y);
-    VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
-              h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2)) : VNDF_R(0.0);
-    struct vndf_impl_conic_normal m;
-    m.x = sx * rcp;
-    m.y = sy * rcp;
-    m.z = hz * rcp;
-    VNDF_REAL twice = h2 * rcp * cone.length;
+    struct vndf_impl_conic_half h = vndf_impl_conic_half_of(l, wi);
+    VNDF_REAL twice = h.twice * cone.length;
     // m^T Q m for mu = 1: |A m|^2 (wi . l - cos beta) / mu, of what all normals are, (v . m)^2.
     VNDF_REAL depth = vndf_impl_max(
         VNDF_FMA(VNDF_R(-0.5), vndf_impl_cap_chord2(cone, wi.x, wi.y, wi.z), cone.gap), VNDF_R(0.0));
     VNDF_REAL up2 = VNDF_R(0.25) * (twice * twice);
-    VNDF_REAL height = cone.inside ? depth * (h2 * rcp * rcp) * cone.rcp_mu : up2;
+    VNDF_REAL height = cone.inside ? depth * h.square * cone.rcp_mu : up2;
     // All steps times 1 + m1, as in the map; of more than 1e18 (double: 1e150) squares would leave the range of numbers.
     VNDF_REAL steps = vndf_impl_min(l.unit, VNDF_IMPL_CAP_MOST);
     l.length2 = l.length2 * steps * steps;
-    struct vndf_impl_disk_square d = vndf_impl_conic_invert(l, m, twice * steps, VNDF_DIVIDE(height, steps));
+    struct vndf_impl_disk_square d =
+        vndf_impl_conic_invert(l, h.m, twice * steps, VNDF_DIVIDE(height, steps));
     VNDF_REAL u1 = vndf_impl_share(vndf_impl_turn(d.x, d.y));
     VNDF_REAL u2 = cone.inside || up2 > VNDF_R(0.5) ? d.u2 : VNDF_R(1.0) - up2;
     u2 = vndf_impl_share(vndf_impl_max(u2, VNDF_R(0.0)));
-    int defined = length2 > VNDF_R(0.0) && cone.defined;
+    int defined = h.defined && cone.defined;
     return VNDF_MAKE2(defined ? u1 : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
 }
 

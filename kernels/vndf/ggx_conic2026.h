@@ -368,6 +368,28 @@ struct vndf_impl_disk_square {
     VNDF_REAL x, y, u2;
 };
 
+// The stretched normal m between wo and wi: half its cosine with v = alpha wo is |h|^2 / (2 |m|), and |A m|^2 = |h|^2 / |m|^2.
+struct vndf_impl_conic_half {
+    struct vndf_impl_conic_normal m;
+    VNDF_REAL twice, square;  // |h|^2 / |m|, |h|^2 / |m|^2 before m is made a unit vector
+    int defined;
+};
+VNDF_FN struct vndf_impl_conic_half vndf_impl_conic_half_of(struct vndf_ggx_conic2026 l, VNDF_REAL3 wi) {
+    VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
+    VNDF_REAL sx = VNDF_DIVIDE(hx, l.alpha_x), sy = VNDF_DIVIDE(hy, l.alpha_y);
+    VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
+              h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
+    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2)) : VNDF_R(0.0);
+    struct vndf_impl_conic_half h;
+    h.m.x = sx * rcp;
+    h.m.y = sy * rcp;
+    h.m.z = hz * rcp;
+    h.twice = h2 * rcp;
+    h.square = h.twice * rcp;
+    h.defined = length2 > VNDF_R(0.0);
+    return h;
+}
+
 // The three moves backwards: each length is the root that the map takes, from the normal's side. twice = 2 v . m,
 // height = m^T Q m >= 0.
 VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_conic2026 l,
@@ -404,32 +426,23 @@ VNDF_FN struct vndf_impl_disk_square vndf_impl_conic_invert(struct vndf_ggx_coni
 //     Where wi is the mirror image of wo to within rounding.
 VNDF_FN VNDF_REAL2 vndf_ggx_invert_wi_conic2026(VNDF_REAL3 wo, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     struct vndf_ggx_conic2026 l = vndf_ggx_conic2026_lobe(wo, alpha);
-    VNDF_REAL hx = l.wo_x + wi.x, hy = l.wo_y + wi.y, hz = l.wo_z + wi.z;
-    VNDF_REAL sx = VNDF_DIVIDE(hx, l.alpha_x), sy = VNDF_DIVIDE(hy, l.alpha_y);
-    VNDF_REAL length2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, hz * hz)),
-              h2 = VNDF_FMA(hx, hx, VNDF_FMA(hy, hy, hz * hz));
-    VNDF_REAL rcp = length2 > VNDF_R(0.0) ? VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2)) : VNDF_R(0.0);
-    // The stretched normal m between wo and wi, and half its cosine with v = alpha wo: |h|^2 / (2 |m|).
-    struct vndf_impl_conic_normal m;
-    m.x = sx * rcp;
-    m.y = sy * rcp;
-    m.z = hz * rcp;
-    VNDF_REAL twice = h2 * rcp;
+    struct vndf_impl_conic_half h = vndf_impl_conic_half_of(l, wi);
     // m^T Q m for mu = 1: wi.z |A m|^2 / mu.
-    VNDF_REAL height = vndf_impl_max(wi.z, VNDF_R(0.0)) * (h2 * rcp * rcp) * l.unit;
-    struct vndf_impl_disk_square front = vndf_impl_conic_invert(l, m, twice * l.unit, height);
+    VNDF_REAL height = vndf_impl_max(wi.z, VNDF_R(0.0)) * h.square * l.unit;
+    struct vndf_impl_disk_square front = vndf_impl_conic_invert(l, h.m, h.twice * l.unit, height);
     // The cap: 1 - u2 = 2 (v . m) m.z / p, and the stretched reflection, whose part across z has the square
     // u2 p ((1 - u2) p + r - z).
-    int above = l.wo_z > VNDF_R(0.0), defined = length2 > VNDF_R(0.0);
+    int above = l.wo_z > VNDF_R(0.0);
     VNDF_REAL rcp_p = !above && l.cap.p > VNDF_IMPL_LEAST ? VNDF_DIVIDE(VNDF_R(1.0), l.cap.p) : VNDF_R(0.0);
-    VNDF_REAL ox = VNDF_FMA(twice, m.x, -l.alpha_x * l.wo_x), oy = VNDF_FMA(twice, m.y, -l.alpha_y * l.wo_y);
-    VNDF_REAL rest = twice * m.z * rcp_p;
+    VNDF_REAL ox = VNDF_FMA(h.twice, h.m.x, -l.alpha_x * l.wo_x),
+              oy = VNDF_FMA(h.twice, h.m.y, -l.alpha_y * l.wo_y);
+    VNDF_REAL rest = h.twice * h.m.z * rcp_p;
     VNDF_REAL part = VNDF_FMA(VNDF_R(1.0) + vndf_impl_max(rest, VNDF_R(0.0)), l.cap.p, l.cap.gap);
     VNDF_REAL u2 = VNDF_DIVIDE(VNDF_FMA(ox, ox, oy * oy) * rcp_p, part > VNDF_R(0.0) ? part : VNDF_R(1.0));
     u2 = rest < VNDF_R(0.5) ? VNDF_R(1.0) - rest : u2;
     VNDF_REAL u1 = vndf_impl_turn(above ? front.x : ox, above ? front.y : oy);
     u2 = vndf_impl_share(vndf_impl_max(above ? front.u2 : u2, VNDF_R(0.0)));
-    return VNDF_MAKE2(defined ? vndf_impl_share(u1) : VNDF_R(0.0), defined ? u2 : VNDF_R(0.0));
+    return VNDF_MAKE2(h.defined ? vndf_impl_share(u1) : VNDF_R(0.0), h.defined ? u2 : VNDF_R(0.0));
 }
 
 // --- One alpha ---

@@ -1,6 +1,9 @@
 #define VNDF_REAL double
 #include "vndf/ggx_cone2026.h"
 
+#include <tuple>
+#include <utility>
+
 #include "cone_claims.h"
 #include "reference/integrals.h"
 
@@ -13,6 +16,11 @@ struct Vector {
 Vector unit(const Vector& v) {
     const double length = std::hypot(v.x, v.y, v.z);
     return {v.x / length, v.y / length, v.z / length};
+}
+// Two directions across l and each other.
+std::pair<Vector, Vector> across(const Vector& l) {
+    const Vector a = unit(std::abs(l.x) < 0.6 ? Vector{0, -l.z, l.y} : Vector{l.z, 0, -l.x});
+    return {a, {l.y * a.z - l.z * a.y, l.z * a.x - l.x * a.z, l.x * a.y - l.y * a.x}};
 }
 Vector anywhere(Random& random) {
     const double z = 2 * random.uniform() - 1, phi = 2 * VNDF_PI * random.uniform(),
@@ -64,10 +72,8 @@ Lost count_lost_in_caps(std::uint64_t directions) {
         const CapLobe c = random_cap(random, 1e-3, 4, false);
         const vndf_ggx_cone2026 cone = cone_of(c);
         if (!cone.inside) return;
-        // Across l.
-        const Vector l{c.lx, c.ly, c.lz},
-            a = unit(std::abs(l.x) < 0.6 ? Vector{0, -l.z, l.y} : Vector{l.z, 0, -l.x});
-        const Vector b{l.y * a.z - l.z * a.y, l.z * a.x - l.x * a.z, l.x * a.y - l.y * a.x};
+        const Vector l{c.lx, c.ly, c.lz};
+        const auto [a, b] = across(l);
         std::uint64_t bad = 0;
         for (std::uint64_t i = 0; i < samples_of_lobe; ++i) {
             const double share = i % 2 ? random.uniform() : 1 - random.log_uniform(1e-9, 1);
@@ -78,11 +84,7 @@ Lost count_lost_in_caps(std::uint64_t directions) {
                                   x * a.z + y * b.z + z * l.z};
             const vndf_double2 u = vndf_ggx_invert_wi_cone2026_lobe(cone, wi);
             const vndf_double3 back = vndf_ggx_sample_wi_cone2026_lobe(cone, u);
-            const double off = std::hypot(back.x - wi.x, back.y - wi.y, back.z - wi.z);
-            // The probability that surrounds the direction up to there, as in count_lost.
-            const double around = off * off * vndf_ggx_pdf_wi_cone2026_lobe(cone, wi);
-            bad += !(u.x >= 0 && u.x <= 1 && u.y >= 0 && u.y <= 1 && around < 1e-16);
-            raise(worst, around);
+            bad += is_lost(u, wi, back, vndf_ggx_pdf_wi_cone2026_lobe(cone, wi), worst);
         }
         outside += bad;
     });
@@ -94,10 +96,7 @@ namespace {
 // The integral of D / 4 over the cap: in its polar coordinates, panels halved either way until they agree.
 class CapQuadrature {
   public:
-    explicit CapQuadrature(const CapLobe& c) : c_(c), l_{c.lx, c.ly, c.lz} {
-        a_ = unit(std::abs(l_.x) < 0.6 ? Vector{0, -l_.z, l_.y} : Vector{l_.z, 0, -l_.x});
-        b_ = {l_.y * a_.z - l_.z * a_.y, l_.z * a_.x - l_.x * a_.z, l_.x * a_.y - l_.y * a_.x};
-    }
+    explicit CapQuadrature(const CapLobe& c) : c_(c), l_{c.lx, c.ly, c.lz} { std::tie(a_, b_) = across(l_); }
 
     double operator()(double about) const {
         double sum = 0;
@@ -158,12 +157,10 @@ double worst_cap_integral(std::uint64_t caps) {
     std::atomic<double> worst{0};
     for_blocks(caps, [&](Random& random) {
         const CapLobe c = random_cap(random, 1e-2, 2, true);
-        const reference::QuadratureRule rule = distribution(c).rule(2);
         const vndf_ggx_cone2026 cone = cone_of(c);
-        double sum = 0;
-        for (std::size_t i = 0; i < rule.size(); ++i)
-            sum += rule.weight[i] * vndf_ggx_pdf_wi_cone2026_lobe(cone, {rule.x[i], rule.y[i], rule.z[i]});
-        raise(worst, std::abs(sum - 1));
+        raise(worst, off_one(distribution(c).rule(2), [&](double x, double y, double z) {
+                  return vndf_ggx_pdf_wi_cone2026_lobe(cone, {x, y, z});
+              }));
     });
     return worst;
 }

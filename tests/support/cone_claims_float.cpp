@@ -19,12 +19,7 @@ std::uint64_t count_missed(std::uint64_t samples) {
         const double reach = std::sqrt(2.0 * f(c.one_minus_cos)) + 32 * 0x1p-24;
         std::uint64_t bad = 0;
         for (std::uint64_t i = 0; i < samples_of_lobe; ++i) {
-            const std::uint64_t bits = random.bits();
-            const float u1 = static_cast<float>(bits >> 40) * 0x1p-24f;
-            // One in eight within 2^-16 of the rim.
-            const auto low = static_cast<std::uint32_t>(bits & 0xffffff);
-            const float u2 =
-                (i % 8 ? static_cast<float>(low) : 0x1p24f - static_cast<float>(low & 0xff)) * 0x1p-24f;
+            const auto [u1, u2] = random_u(random, i);
             const vndf_float4 wi = vndf_ggx_sample_wi_cone2026_lobe_with_pdf(cone, {u1, u2});
             const double x = wi.x, y = wi.y, z = wi.z, length = std::sqrt(x * x + y * y + z * z);
             const double dx = x / length - lx * rcp, dy = y / length - ly * rcp, dz = z / length - lz * rcp;

@@ -21,12 +21,7 @@ Lost count_lost(std::uint64_t directions) {
             const vndf_double3 wi{s * std::cos(phi), s * std::sin(phi), z};
             const vndf_double2 u = vndf_ggx_invert_wi_conic2026(wo, wi, alpha);
             const vndf_double3 back = vndf_ggx_sample_wi_conic2026_lobe(lobe, u);
-            const double off = std::hypot(back.x - wi.x, back.y - wi.y, back.z - wi.z);
-            // The probability that surrounds the direction up to there: where the density is low or u2 next to 1, the
-            // rounding of u moves a direction far.
-            const double around = off * off * vndf_ggx_pdf_wi_conic2026_lobe(lobe, wi);
-            bad += !(u.x >= 0 && u.x <= 1 && u.y >= 0 && u.y <= 1 && around < 1e-16);
-            raise(worst, around);
+            bad += is_lost(u, wi, back, vndf_ggx_pdf_wi_conic2026_lobe(lobe, wi), worst);
         }
         outside += bad;
     });
@@ -57,12 +52,10 @@ double worst_integral(std::uint64_t lobes) {
     std::atomic<double> worst{0};
     for_blocks(lobes, [&](Random& random) {
         const Lobe at = random_lobe(random, 1e-2, 2);
-        const reference::QuadratureRule rule = distribution(at).rule(2);
         const vndf_ggx_conic2026 lobe = vndf_ggx_conic2026_lobe({at.x, at.y, at.z}, {at.alpha_x, at.alpha_y});
-        double sum = 0;
-        for (std::size_t i = 0; i < rule.size(); ++i)
-            sum += rule.weight[i] * vndf_ggx_pdf_wi_conic2026_lobe(lobe, {rule.x[i], rule.y[i], rule.z[i]});
-        raise(worst, std::abs(sum - 1));
+        raise(worst, off_one(distribution(at).rule(2), [&](double x, double y, double z) {
+                  return vndf_ggx_pdf_wi_conic2026_lobe(lobe, {x, y, z});
+              }));
     });
     return worst;
 }

@@ -32,6 +32,17 @@ inline Lobe random_lobe(Random& random, double least_alpha, double most_alpha) {
     return {s * std::cos(phi), s * std::sin(phi), z, alpha, other};
 }
 
+// Uniform multiples of 2^-24, u2 in one of eight within 2^-16 of the rim.
+struct DiskU {
+    float u1, u2;
+};
+inline DiskU random_u(Random& random, std::uint64_t i) {
+    const std::uint64_t bits = random.bits();
+    const auto low = static_cast<std::uint32_t>(bits & 0xffffff);
+    return {static_cast<float>(bits >> 40) * 0x1p-24f,
+            (i % 8 ? static_cast<float>(low) : 0x1p24f - static_cast<float>(low & 0xff)) * 0x1p-24f};
+}
+
 // Calls visit(random, block) for blocks 0 ... count - 1.
 template <class Visit>
 void for_blocks(std::uint64_t count, Visit visit) {
@@ -63,6 +74,25 @@ struct Lost {
     double worst_round_trip =
         0;  // of the angle between a direction and the reflection of its u, over its condition
 };
+// Judges a direction wi with its density, the u that the inverse gives of it and the reflection of that u: whether it is lost. The
+// probability that surrounds wi up to there counts: where the density is low or u2 next to 1, the rounding of u moves a
+// direction far.
+template <class U, class V>
+bool is_lost(const U& u, const V& wi, const V& back, double pdf, std::atomic<double>& worst) {
+    const double off = std::hypot(back.x - wi.x, back.y - wi.y, back.z - wi.z), around = off * off * pdf;
+    raise(worst, around);
+    return !(u.x >= 0 && u.x <= 1 && u.y >= 0 && u.y <= 1 && around < 1e-16);
+}
+
+// How far the integral of pdf(x, y, z) by the rule is from 1.
+template <class Pdf>
+double off_one(const reference::QuadratureRule& rule, Pdf pdf) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rule.size(); ++i)
+        sum += rule.weight[i] * pdf(rule.x[i], rule.y[i], rule.z[i]);
+    return std::abs(sum - 1);
+}
+
 // `directions` random directions above the horizon through the inverse (double), half of them near it.
 Lost count_lost(std::uint64_t directions);
 

@@ -15,12 +15,7 @@ std::uint64_t count_below(std::uint64_t samples) {
         const bool isotropic = alpha.x == alpha.y && random.bits() % 2;
         std::uint64_t bad = 0;
         for (std::uint64_t i = 0; i < samples_of_lobe; ++i) {
-            const std::uint64_t bits = random.bits();
-            const float u1 = static_cast<float>(bits >> 40) * 0x1p-24f;
-            // One in eight within 2^-16 of the rim.
-            const auto low = static_cast<std::uint32_t>(bits & 0xffffff);
-            const float u2 =
-                (i % 8 ? static_cast<float>(low) : 0x1p24f - static_cast<float>(low & 0xff)) * 0x1p-24f;
+            const auto [u1, u2] = random_u(random, i);
             const vndf_float4 wi =
                 isotropic ? vndf_ggx_sample_wi_conic2026_isotropic_with_pdf(wo, alpha.x, {u1, u2})
                           : vndf_ggx_sample_wi_conic2026_lobe_with_pdf(lobe, {u1, u2});

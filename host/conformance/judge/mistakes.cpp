@@ -80,17 +80,10 @@ std::vector<Hypothesis> of_normals(Ndf ndf, bool plain) {
     const Map right = plain ? all_of(ggx) : visible_of(ggx), other = plain ? all_of(!ggx) : visible_of(!ggx);
     std::vector<Hypothesis> all{{"", right}};
     const auto add = [&](const char* what, Map map) { all.push_back({what, std::move(map)}); };
-    const auto alpha = [&](const char* what, auto change) {
-        add(what, [=](const Direction& o, const Alpha& a, double u1, double u2) {
-            return right(o, change(a), u1, u2);
+    for (const AlphaMistake& mistake : alpha_mistakes)
+        add(mistake.what, [=](const Direction& o, const Alpha& a, double u1, double u2) {
+            return right(o, mistake.of(a), u1, u2);
         });
-    };
-    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
-    alpha("alpha is squared once more, as if it were a perceptual roughness",
-          [](const Alpha& a) { return each(a, squared); });
-    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
-    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
-    alpha("alpha.x is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[1], a[1]}; });
     add(ggx ? "it draws from Beckmann's distribution, not from that of GGX"
             : "it draws from the distribution of GGX, not from Beckmann's",
         other);

@@ -33,6 +33,13 @@ struct Guess {
     Value value;
 };
 
+void add_alphas(std::vector<Guess>& all, const Value& right) {
+    for (const AlphaMistake& mistake : alpha_mistakes)
+        all.push_back({mistake.what, [=](const Direction& o, const Direction& w, const Alpha& a) {
+                           return right(o, w, mistake.of(a));
+                       }});
+}
+
 // Densities of normals, of a view or of the whole surface, for one distribution.
 std::vector<Guess> densities(const Function& density) {
     const bool ggx = density.ndf == Ndf::ggx, plain = density.support == Support::upper,
@@ -67,16 +74,7 @@ std::vector<Guess> densities(const Function& density) {
     };
     std::vector<Guess> all{{"", right}};
     const auto add = [&](const char* what, Value v) { all.push_back({what, std::move(v)}); };
-    const auto alpha = [&](const char* what, auto change) {
-        add(what,
-            [=](const Direction& o, const Direction& w, const Alpha& a) { return right(o, w, change(a)); });
-    };
-    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
-    alpha("alpha is squared once more, as if it were a perceptual roughness",
-          [](const Alpha& a) { return each(a, squared); });
-    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
-    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
-    alpha("alpha.x is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[1], a[1]}; });
+    add_alphas(all, right);
     add(ggx ? "it is the density of Beckmann's distribution, not of GGX"
             : "it is the density of the distribution of GGX, not of Beckmann's",
         about(plain ? all_normals(others) : visible(others), true));
@@ -186,16 +184,7 @@ std::vector<Guess> terms(const Function& term, bool takes_wo, bool takes_w) {
     };
     const Value right = evaluated(term.model);
     std::vector<Guess> all{{"", right}};
-    const auto alpha = [&](const char* what, auto change) {
-        all.push_back({what, [=](const Direction& o, const Direction& w, const Alpha& a) {
-                           return right(o, w, change(a));
-                       }});
-    };
-    alpha("alpha.x and alpha.y are exchanged", [](const Alpha& a) { return Alpha{a[1], a[0]}; });
-    alpha("alpha is squared once more, as if it were a perceptual roughness",
-          [](const Alpha& a) { return each(a, squared); });
-    alpha("the square root of alpha is taken for it", [](const Alpha& a) { return each(a, root); });
-    alpha("alpha.y is not used: judge it with --isotropic", [](const Alpha& a) { return Alpha{a[0], a[0]}; });
+    add_alphas(all, right);
     const std::string ggx = "vndf_ggx_", beckmann = "vndf_beckmann_";
     const bool is_ggx = term.model.starts_with(ggx);
     const std::string other = is_ggx ? beckmann + term.model.substr(ggx.size())

@@ -29,14 +29,30 @@ inline Direction reflect(const Direction& o, const Direction& m) {
     return 2 * dot(o, m) * m + -o;
 }
 
-inline Alpha each(const Alpha& a, double (*f)(double)) {
-    return {f(a[0]), f(a[1])};
-}
-inline double squared(double x) {
-    return x * x;
-}
-inline double root(double x) {
-    return std::sqrt(x);
-}
+// What is made of alpha, in samplers as in values.
+struct AlphaMistake {
+    const char* what;
+    Alpha (*of)(const Alpha& alpha);
+};
+inline constexpr AlphaMistake alpha_mistakes[] = {
+    {"alpha.x and alpha.y are exchanged",
+     [](const Alpha& a) {
+         return Alpha{a[1], a[0]};
+     }},
+    {"alpha is squared once more, as if it were a perceptual roughness",
+     [](const Alpha& a) {
+         return Alpha{a[0] * a[0], a[1] * a[1]};
+     }},
+    {"the square root of alpha is taken for it",
+     [](const Alpha& a) {
+         return Alpha{std::sqrt(a[0]), std::sqrt(a[1])};
+     }},
+    {"alpha.y is not used: judge it with --isotropic",
+     [](const Alpha& a) {
+         return Alpha{a[0], a[0]};
+     }},
+    {"alpha.x is not used: judge it with --isotropic", [](const Alpha& a) {
+         return Alpha{a[1], a[1]};
+     }}};
 
 }  // namespace vndf::conformance::vectors
