@@ -27,7 +27,6 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "conformance/runs/check.h"
-#include "conformance/runs/user_kernel.h"
 #include "cli/streams.h"
 #include "error.h"
 
@@ -449,23 +448,14 @@ void add_bench(CLI::App& app, Common& common) {
                      "make FOLDER/index.html, a page with plots, beside FOLDER/bench.json")
         ->type_name("FOLDER")
         ->excludes(effects);
-    CLI::Option* kernel =
-        command
-            ->add_option("--kernel", options->user.file,
-                         "time a function of this file of OpenCL C beside the library's, as clvndf "
-                         "check judges it")
-            ->type_name("FILE")
-            ->excludes(quick)
-            ->excludes(advise)
-            ->excludes(effects)
-            ->excludes(command->get_option("--only"))
-            ->excludes(command->get_option("--report"));
-    CLI::Option* function =
-        command->add_option("--function", options->user.function, "its name there")->needs(kernel);
-    CLI::Option* as =
-        command->add_option("--as", options->user.as, "what it is to be, as for clvndf check")->needs(kernel);
-    kernel->needs(function)->needs(as);
-    command->add_option("--options", options->user.options, "build options for the file")->needs(kernel);
+    add_kernel(*command, options->user,
+               "time a function of this file of OpenCL C beside the library's, as clvndf check judges it",
+               "what it is to be, as for clvndf check", "its name there")
+        ->excludes(quick)
+        ->excludes(advise)
+        ->excludes(effects)
+        ->excludes(command->get_option("--only"))
+        ->excludes(command->get_option("--report"));
     command->add_option("--compare", options->compare, "show times relative to those of this JSON file")
         ->excludes(effects);
     command->callback([options, &common] {

@@ -230,28 +230,17 @@ void run_check(const Check& options, Common& common) {
 // What is judged in place of our functions.
 void add_user(CLI::App& command, const std::shared_ptr<Check>& options) {
     conformance::UserOptions& user = options->user;
-    CLI::Option* kernel =
-        command.add_option("--kernel", user.file,
-                           "judge a function of this file of OpenCL C instead: kernels/README.md, Adapters");
-    CLI::Option* function =
-        command.add_option("--function", user.function, "its name there; of a bsdf that of its value")
-            ->needs(kernel);
-    CLI::Option* as =
-        command
-            .add_option(
-                "--as", user.as,
-                fmt::format(
-                    "what it is to be: {}, bsdf,\nor a function of clvndf list, whose map or value is "
+    CLI::Option* kernel = add_kernel(
+        command, user, "judge a function of this file of OpenCL C instead: kernels/README.md, Adapters",
+        fmt::format("what it is to be: {}, bsdf,\nor a function of clvndf list, whose map or value is "
                     "compared as well",
-                    fmt::join(conformance::general_names(), ", ")))
-            ->needs(kernel);
-    kernel->needs(function)->needs(as)->type_name("FILE");
+                    fmt::join(conformance::general_names(), ", ")),
+        "its name there; of a bsdf that of its value");
     for (const char* other : {"--only", "--math", "--exhaustive", "--digest"})
         kernel->excludes(command.get_option(other));
     command.add_option("--pdf", user.pdf, "of a sampler or a bsdf, the name of its density, judged as well")
         ->needs(kernel);
     command.add_option("--sample", user.sample, "of a bsdf, the name of its sampler")->needs(kernel);
-    command.add_option("--options", user.options, "build options for the file")->needs(kernel);
     command
         .add_option_function<std::string>(
             "--domain",

@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "cli/csv.h"
 #include "cli/output_file.h"
-#include "conformance/runs/user_kernel.h"
+#include "cli/options.h"
 #include "error.h"
 #include "runtime/device_evaluator.h"
 
@@ -133,18 +133,10 @@ void add_eval(CLI::App& app, Common& common) {
         ->capture_default_str();
     command->add_option("--output", eval->output, "CSV to write, or -")->capture_default_str();
     command->add_flag("--hex", eval->hex, "C99 hex numbers in the output");
-    CLI::Option* kernel =
-        command
-            ->add_option("--kernel", eval->user.file,
-                         "evaluate a function of this file of OpenCL C, as clvndf check does")
-            ->type_name("FILE")
-            ->excludes(command->get_option("--on"))
-            ->excludes(command->get_option("--math"));
-    CLI::Option* as =
-        command->add_option("--as", eval->user.as, "the function of clvndf list whose arguments it has");
-    as->needs(kernel);
-    kernel->needs(as);
-    command->add_option("--options", eval->user.options, "build options for the file")->needs(kernel);
+    add_kernel(*command, eval->user, "evaluate a function of this file of OpenCL C, as clvndf check does",
+               "the function of clvndf list whose arguments it has")
+        ->excludes(command->get_option("--on"))
+        ->excludes(command->get_option("--math"));
     command->callback([eval, &common] {
         eval->user.function = eval->name;
         common.action = [eval, &common] { run(*eval, common); };

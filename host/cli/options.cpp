@@ -16,6 +16,18 @@ CLI::Option* add_only(CLI::App& command, std::string& pattern) {
                               "only functions whose name contains this, or matches it with * and ?");
 }
 
+CLI::Option* add_kernel(CLI::App& command, conformance::UserOptions& user, const std::string& kernel,
+                        const std::string& as, const std::string& function) {
+    CLI::Option* file = command.add_option("--kernel", user.file, kernel)->type_name("FILE");
+    const auto needed = [&](const char* name, std::string& value, const std::string& description) {
+        file->needs(command.add_option(name, value, description)->needs(file));
+    };
+    if (!function.empty()) needed("--function", user.function, function);
+    needed("--as", user.as, as);
+    command.add_option("--options", user.options, "build options for the file")->needs(file);
+    return file;
+}
+
 CLI::Option* add_alpha(CLI::App& command, conformance::AlphaRange& range, const std::string& description) {
     const auto parse = [&range](const std::string& text) {
         const char *const first = text.data(), *const last = first + text.size();

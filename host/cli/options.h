@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "conformance/inputs/points.h"
+#include "conformance/runs/user_kernel.h"
 #include "error.h"
 #include "registry.h"
 
@@ -19,6 +19,10 @@ CLI::Option* add_device(CLI::App& command, std::string& device);
 
 // --only; `pattern` is set to what was given, empty without the option.
 CLI::Option* add_only(CLI::App& command, std::string& pattern);
+
+// --kernel FILE with --function NAME, if `function` says what, --as and --options: a user's function. The option --kernel.
+CLI::Option* add_kernel(CLI::App& command, conformance::UserOptions& user, const std::string& kernel,
+                        const std::string& as, const std::string& function = "");
 
 // --alpha LO:HI.
 CLI::Option* add_alpha(CLI::App& command, conformance::AlphaRange& range, const std::string& description);
