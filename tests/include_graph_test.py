@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The include graph of kernels, host and bench has no circle, between files or between folders, and no arrow points up.
+"""The include graph of kernels, host and bench has no circle, between files or between folders, and no arrow points up; and no
+header of ours stands before a library's that somebody includes.
 
     python3 tests/include_graph_test.py           exit status 1 with each circle and each arrow that points up
     python3 tests/include_graph_test.py --dot     the graph of the folders, for graphviz
@@ -38,6 +39,14 @@ def graph():
     return edges
 
 
+def hidden():
+    """Each include of a library's header that finds one of host in its place, since that folder is searched first."""
+    for name in sorted(sources()):
+        for target in re.findall(r"^\s*#\s*include\s*<([^>]+)>", (ROOT / name).read_text("utf-8"), re.M):
+            if (ROOT / "host" / target).exists():
+                yield f"{name}: <{target}> is host/{target} there"
+
+
 def circle(edges):
     """A circle, as a list of nodes, or None."""
     done, open_ = set(), []
@@ -73,7 +82,7 @@ def main():
     if sys.argv[1:] == ["--dot"]:
         print("digraph {", *(f'  "{a}" -> "{b}"' for a in sorted(folders) for b in sorted(folders[a])), "}", sep="\n")
         return
-    problems = []
+    problems = list(hidden())
     if len(files) < 100 or sum(map(len, files.values())) < 200:
         problems.append("too few files or arrows to believe it")
     for what, edges in (("files", files), ("folders", folders)):

@@ -43,9 +43,10 @@ std::vector<float> glass_parts_of(const GlassAlbedo& a) {
     const double through = 1 - a.walk;
     double reflected = (a.reflected + least) / (a.walk + least),
            refracted = (a.refracted + least) / (std::max(through, 0.) + least);
-    (a.refracted < a.reflected ? reflected : refracted) = a.refracted < a.reflected
-                                                              ? a.reflected / (1 - a.refracted / refracted)
-                                                              : a.refracted / (1 - a.reflected / reflected);
+    if (a.refracted < a.reflected)
+        reflected = a.reflected / (1 - a.refracted / refracted);
+    else
+        refracted = a.refracted / (1 - a.reflected / reflected);
     const auto number = [](double part) {
         return static_cast<float>(std::round(std::clamp(part * GlassTable::one, 1., 65535.)));
     };

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "png.h"
+#include "png_file.h"
 #include "support/gltf_file.h"
 
 namespace vndf::test {

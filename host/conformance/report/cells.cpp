@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base64.h"
-#include "png.h"
+#include "png_file.h"
 
 namespace vndf::conformance {
 namespace {
