@@ -9,9 +9,9 @@
 namespace vndf::bench {
 
 bool is_lobe(const std::string& scalar) {
-    for (const std::string_view prefix : {"wo_", "n_", "alpha"})
+    for (const std::string_view prefix : {"wo_", "l_", "n_", "alpha"})
         if (scalar.starts_with(prefix)) return true;
-    return scalar == "eta" || scalar == "cos_theta";
+    return scalar == "eta" || scalar == "cos_theta" || scalar == "one_minus_cos";
 }
 
 namespace {

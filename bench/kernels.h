@@ -11,7 +11,7 @@ namespace vndf::bench {
 
 // `callee`, with the arguments of `function`, over arrays that stay in the cache: every further group of work-items goes over
 // them again. Arguments: inputs, outputs; any global size.
-//   vndf_compute  for one lobe: wo, n, alpha, eta and cos_theta are numbers, the rest arrays of compute_groups groups
+//   vndf_compute  for one lobe: wo, n, alpha, eta, cos_theta and the cap are numbers, the rest arrays of compute_groups groups
 //   vndf_cached   arrays of cached_groups groups
 std::string cached_source(const Function& function, const std::string& callee);
 

@@ -24,32 +24,34 @@ struct vndf_ggx_cone2026 {
     VNDF_REAL length;               // 1 / (v . e0) of v = alpha wo
     VNDF_REAL lx, ly, lz;           // as long as wo
     VNDF_REAL gap, limit, rcp_mu;  // (1 - cos beta) |wo|^2; the squared chord that rounding may reach; 1 / mu
+    VNDF_REAL rcp_rim;             // 1 / sin^2 beta
     int inside, defined;           // -wo is outside the cap
 };
 
-// sigma_C of the cone; for a cap of no size it shrinks with 1 - cos beta. (part: 1 - cos beta over what it counts as.)
+// 1 - cos beta over what it counts as.
+VNDF_FN VNDF_REAL vndf_impl_cap_part(VNDF_REAL one_minus_cos) {
+    return vndf_impl_share(VNDF_DIVIDE(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_IMPL_CAP_LEAST));
+}
+
+// sigma_C of the cone; for a cap of no size it shrinks with 1 - cos beta.
 VNDF_FN VNDF_REAL vndf_impl_cap_sigma(struct vndf_impl_cap c, struct vndf_impl_cap_cone k,
                                       VNDF_REAL one_minus_cos) {
     VNDF_REAL sigma = VNDF_DIVIDE(k.mu, VNDF_SQRT(k.sum) * (k.length > VNDF_R(0.0) ? k.length : VNDF_R(1.0)));
-    VNDF_REAL part =
-        vndf_impl_share(VNDF_DIVIDE(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_IMPL_CAP_LEAST));
-    return c.defined && k.length > VNDF_R(0.0) ? sigma * part : VNDF_R(0.0);
+    return c.defined && k.length > VNDF_R(0.0) ? sigma * vndf_impl_cap_part(one_minus_cos) : VNDF_R(0.0);
 }
 
 // Two vectors that are orthonormal with the unit vector e, a x b = e: b across z, or along y where e is z.
 struct vndf_impl_cap_frame {
     VNDF_REAL ax, ay, az, bx, by;
 };
-VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL ez,
-                                                          VNDF_REAL before) {
+VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL ez) {
     struct vndf_impl_cap_frame f;
     // Of two shapes: alike they would be packed (impl/stretch.h).
     VNDF_REAL size = vndf_impl_abs(ex) + vndf_impl_max(ey, -ey);
     int level = size > VNDF_R(0.0);
     VNDF_REAL scale = vndf_impl_scale(level ? size : VNDF_R(1.0)), x = level ? ex * scale : VNDF_R(1.0),
               y = ey * scale;
-    VNDF_REAL one = before > VNDF_R(0.0) ? VNDF_R(1.0) : VNDF_R(2.0),
-              rcp = VNDF_DIVIDE(one, VNDF_SQRT(VNDF_FMA(x, x, y * y)));
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(VNDF_FMA(x, x, y * y)));
     f.by = x * rcp;
     f.bx = -(y * rcp);
     f.ax = f.by * ez;
@@ -59,6 +61,7 @@ VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REA
 }
 
 #define VNDF_IMPL_CAP_DOWN VNDF_R(9.31322574615478515625e-10)  // 2^-30
+#define VNDF_IMPL_CAP_LESS VNDF_R(8.67361737988403547e-19)     // 2^-60
 
 // e1 and e2 by a rotation of two vectors across e0, and the numbers of the map. Across e0, with P = kappa A^2,
 //     -f^T Q f = (mu f^T P f + g^T adj(P) g) / (mu + e0^T P e0) + (f . q)^2 / (2 omega),  g = e0 x f,
@@ -66,7 +69,7 @@ VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REA
 VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l,
                                                      struct vndf_impl_cap_cone k) {
     VNDF_REAL x2 = l.alpha_x * l.alpha_x, y2 = l.alpha_y * l.alpha_y;
-    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.ex, k.ey, k.ez, k.rcp);
+    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.ex, k.ey, k.ez);
     VNDF_REAL rcp = k.rcp, rcp_mu = rcp * k.omega, share = VNDF_R(0.5) * k.scale * rcp * VNDF_IMPL_CAP_DOWN;
     VNDF_REAL kappa = k.kappa * rcp_mu;
     // P / (1 + e0^T P e0) for mu = 1, and with it all of the matrix times 2^-30: its products may be as large as numbers get.
@@ -112,12 +115,15 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
               most = VNDF_R(1e36) * VNDF_IMPL_CAP_DOWN;
     gap = VNDF_DIVIDE(vndf_impl_min(gap, most), VNDF_IMPL_CAP_DOWN);
     m1 = VNDF_DIVIDE(vndf_impl_min(m1, most), VNDF_IMPL_CAP_DOWN);
-    VNDF_REAL m2 = vndf_impl_min(VNDF_DIVIDE(k.product * rcp_mu, m1) * rcp_mu, m1);  // 0 unless inside
+    // 1 / (1 + m2) and m2 / (1 + m2) as m1 and m1 m2 over m1 + m1 m2, large ones less.
+    VNDF_REAL down = m1 > VNDF_R(1.0) ? VNDF_IMPL_CAP_LESS : VNDF_R(1.0);
+    VNDF_REAL first = m1 * down, both = vndf_impl_min(k.product * rcp_mu * down * rcp_mu, m1 * first);
     gap = k.inside ? gap : VNDF_R(0.0);
     m1 = k.inside ? m1 : VNDF_R(0.0);
     VNDF_REAL rcp_g1 = VNDF_DIVIDE(VNDF_R(1.0), VNDF_R(1.0) + m1);
     // Made dependent on the first, so that the two are not packed (impl/stretch.h).
-    VNDF_REAL rcp_g2 = VNDF_DIVIDE(VNDF_R(1.0), rcp_g1 > VNDF_R(0.0) ? VNDF_R(1.0) + m2 : VNDF_R(1.0));
+    VNDF_REAL rcp_both = VNDF_DIVIDE(VNDF_R(1.0), rcp_g1 > VNDF_R(0.0) ? first + both : VNDF_R(1.0));
+    VNDF_REAL rcp_g2 = first * rcp_both;
     // v . f = (e^T P f + q . f) / (2 omega), e = size e0: over v . e0.
     VNDF_REAL p = k.kappa * k.size, half_omega = VNDF_R(0.5) * (rcp * k.mu) * k.length;
     VNDF_REAL tx = VNDF_FMA(p * x2, k.ex, k.qx), ty = VNDF_FMA(p * y2, k.ey, k.qy),
@@ -129,11 +135,12 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     l.s0 = VNDF_R(1.0);
     l.s2 = l.along_2 * l.spread;
     VNDF_REAL root_1 = VNDF_SQRT(rcp_g1), root_2 = VNDF_SQRT(root_1 > VNDF_R(0.0) ? rcp_g2 : VNDF_R(1.0));
+    l.twice_sigma = VNDF_R(2.0) * k.along * root_1 * root_2;  // p q v . e0
     // The sign of e1 is that of q . e1 >= 0.
     int turned = VNDF_FMA(ca, qa, cb * qb) < VNDF_R(0.0);
     l.step_1 = turned ? -root_1 : root_1;
     l.step_2 = turned ? -root_2 : root_2;
-    l.rim_0 = vndf_impl_max(m2 * rcp_g2, VNDF_R(1e-30));  // so that M > 0
+    l.rim_0 = vndf_impl_max(both * rcp_both, VNDF_R(1e-30));  // so that M > 0
     // The steps of the map times 1 + m1, which may be as large as numbers get: as much less of v.
     VNDF_REAL skew = gap * rcp_g1;
     l.rim_1 = skew * rcp_g2;
@@ -170,6 +177,7 @@ VNDF_FN struct vndf_ggx_cone2026 vndf_ggx_cone2026_of(struct vndf_ggx_lobe lobe,
     c.inside = k.inside;
     c.defined = cap.defined && k.length > VNDF_R(0.0);
     c.gap = cap.gap;
+    c.rcp_rim = cap.rcp_rim;
     VNDF_REAL chord = VNDF_SQRT(k.mu > VNDF_R(0.0) ? VNDF_R(2.0) * cap.gap : VNDF_R(1.0)),
               reach = chord + VNDF_R(32.0) * VNDF_EPSILON;
     c.limit = reach * reach;
@@ -184,7 +192,7 @@ VNDF_FN struct vndf_ggx_cone2026 vndf_ggx_cone2026_of(struct vndf_ggx_lobe lobe,
     c.map.f = k.ey;
     c.map.g = k.ez;
     c.length = k.length;
-    c.map.twice_sigma = VNDF_R(2.0) * vndf_impl_cap_sigma(cap, k, one_minus_cos);
+    c.map.twice_sigma *= c.defined ? vndf_impl_cap_part(one_minus_cos) : VNDF_R(0.0);
     return c;
 }
 
@@ -212,16 +220,17 @@ VNDF_FN struct vndf_impl_sample vndf_impl_cone2026(struct vndf_ggx_cone2026 c, V
                                                                 d.u2 * (d.sine * d.sine), d.rest);
     struct vndf_impl_mirror m =
         vndf_impl_mirror_of(c.map.wo_x, c.map.wo_y, c.map.wo_z, h.x, h.y, h.z, c.map.alpha_x, c.map.alpha_y);
-    // In the cap, as it is but for rounding: moved to the rim along the chord to l, to first order.
+    // In the cap, as it is but for rounding: moved to the rim along the chord to l, to first order, or to l.
     VNDF_REAL x = m.x - c.lx, y = m.y - c.ly, z = m.z - c.lz;
     VNDF_REAL off = VNDF_R(0.5) * VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
-    VNDF_REAL cut =
-        c.inside && off > c.gap ? VNDF_DIVIDE(c.gap - off, off * (VNDF_R(2.0) - off)) : VNDF_R(0.0);
+    VNDF_REAL cut = c.inside
+                        ? vndf_impl_max(vndf_impl_min((c.gap - off) * c.rcp_rim, VNDF_R(0.0)), VNDF_R(-1.0))
+                        : VNDF_R(0.0);
     struct vndf_impl_sample o =
         vndf_impl_conic_unit(m, VNDF_FMA(cut, x, m.x), VNDF_FMA(cut, y, m.y), VNDF_FMA(cut, z, m.z),
                              c.map.alpha_x, c.map.alpha_y, c.map.twice_sigma);
     // A sample of all normals that face wo may miss the cap.
-    int hits = c.inside || vndf_impl_cap_chord2(c, o.x, o.y, o.z) <= c.limit;
+    int hits = c.inside || off <= c.gap;
     o.pdf = h.z > VNDF_R(0.0) && hits ? o.pdf : VNDF_R(0.0);
     return vndf_impl_where(c.defined, o);
 }

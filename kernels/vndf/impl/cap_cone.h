@@ -19,6 +19,7 @@ struct vndf_impl_cap {
     VNDF_REAL sum_x, sum_y, sum_z;     // l + wo
     VNDF_REAL more_x, more_y, more_z;  // l - wo
     VNDF_REAL gap, wo2, kappa, top;    // top = Q.zz, 2 wo.z l.z - kappa
+    VNDF_REAL rcp_rim;                 // 1 / sin^2 beta, of caps up to 172 degrees
     int wide;                          // beta > 60 degrees: by products of wo and l, not by sums
     VNDF_REAL cosine;                  // of those: cos beta |wo|^2
     int defined;                       // neither wo nor l is a zero vector
@@ -44,8 +45,10 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(VNDF_REAL wo_x, VNDF_REAL wo_y, VN
     // |wo| / |l| - 1, from |wo|^2 - |l|^2 as the product of sum and difference.
     VNDF_REAL less = -VNDF_FMA(sx, dx, VNDF_FMA(sy, dy, sz * dz));
     VNDF_REAL length = l2 + VNDF_SQRT(c.wo2 * l2);
-    c.defined = vndf_impl_min(length, c.wo2) > VNDF_R(0.0) && length <= VNDF_REAL_MAX;
+    c.defined = vndf_impl_min(l2, c.wo2) > VNDF_R(0.0) && length <= VNDF_REAL_MAX;
+    c.gap = c.wo2 * vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_IMPL_CAP_LEAST), VNDF_R(2.0));
     VNDF_REAL stretch = VNDF_DIVIDE(less, c.defined ? length : VNDF_R(1.0));
+    c.rcp_rim = VNDF_DIVIDE(VNDF_R(1.0), c.gap * vndf_impl_max(VNDF_R(2.0) - c.gap, VNDF_R(0.01)));
     c.lx = VNDF_FMA(stretch, l.x, l.x);
     c.ly = VNDF_FMA(stretch, l.y, l.y);
     c.lz = VNDF_FMA(stretch, l.z, l.z);
@@ -56,7 +59,6 @@ VNDF_FN struct vndf_impl_cap vndf_impl_cap_of(VNDF_REAL wo_x, VNDF_REAL wo_y, VN
     c.more_y = VNDF_FMA(stretch, l.y, dy);
     c.more_z = VNDF_FMA(stretch, l.z, dz);
     VNDF_REAL across2 = VNDF_FMA(c.sum_x, c.sum_x, c.sum_y * c.sum_y);
-    c.gap = c.wo2 * vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_IMPL_CAP_LEAST), VNDF_R(2.0));
     VNDF_REAL sum2 = VNDF_FMA(c.sum_z, c.sum_z, across2), mirror2 = VNDF_FMA(c.more_z, c.more_z, across2);
     c.wide = c.gap > VNDF_R(0.5) * c.wo2;
     c.cosine = c.wo2 - c.gap;
@@ -105,11 +107,7 @@ VNDF_FN struct vndf_impl_cubic vndf_impl_cap_cubic(struct vndf_impl_cap c, VNDF_
 VNDF_FN VNDF_REAL vndf_impl_cap_halley(VNDF_REAL x, struct vndf_impl_cubic q) {
     VNDF_REAL f = VNDF_FMA(VNDF_FMA(x - q.t, x, q.m), x, -q.d);
     VNDF_REAL slope = VNDF_FMA(VNDF_FMA(VNDF_R(3.0), x, VNDF_R(-2.0) * q.t), x, q.m);
-    // Both near 1: their squares stay in range.
-    VNDF_REAL scale = vndf_impl_scale(vndf_impl_max(slope, VNDF_IMPL_LEAST));
-    slope *= scale;
-    f *= scale;
-    VNDF_REAL den = VNDF_FMA(slope, slope, -f * (VNDF_FMA(VNDF_R(3.0), x, -q.t) * scale));
+    VNDF_REAL den = VNDF_FMA(slope, slope, -f * VNDF_FMA(VNDF_R(3.0), x, -q.t));
     return den > VNDF_R(0.0) ? VNDF_FMA(-f, VNDF_DIVIDE(slope, den), x) : x;
 }
 
@@ -136,7 +134,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_mu(struct vndf_impl_cubic q, VNDF_REAL reach) {
 struct vndf_impl_cap_cone {
     VNDF_REAL x, y, z;
     VNDF_REAL ex, ey, ez, size;  // e0, a unit vector; N e0 times size is omega v + w
-    VNDF_REAL length;            // 1 / (v . e0)
+    VNDF_REAL length, along;     // 1 / (v . e0), v . e0
     VNDF_REAL qx, qy, qz;
     VNDF_REAL mu, kappa, omega, scale;  // scale: the power of two
     VNDF_REAL rcp;                      // 1 / (omega mu)
@@ -166,8 +164,7 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     // N = mu + kappa A^2, and v^T v, w^T w over it.
     VNDF_REAL nx = VNDF_FMA(k.kappa, x2, k.mu), ny = VNDF_FMA(k.kappa, y2, k.mu), nz = k.kappa + k.mu;
     VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), nx * ny), gx = ny * rcp, gy = rcp * nx,
-              gz = VNDF_DIVIDE(VNDF_R(1.0),
-                               rcp > VNDF_R(0.0) ? nz : VNDF_R(1.0));  // one feeds the other (impl/stretch.h)
+              gz = VNDF_DIVIDE(VNDF_R(1.0), nz);
     VNDF_REAL hx = x2 * gx, hy = gy * y2;
     VNDF_REAL vv = VNDF_FMA(hx * wo_x, wo_x, VNDF_FMA(hy * wo_y, wo_y, gz * wo_z * wo_z));
     VNDF_REAL ww = VNDF_FMA(hx * c.lx, c.lx, VNDF_FMA(hy * c.ly, c.ly, gz * c.lz * c.lz));
@@ -182,18 +179,21 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     ey = k.inside ? ey : k.y;
     ez = k.inside ? ez : k.z;
     k.size = VNDF_SQRT(VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)));
-    VNDF_REAL rcp_e = VNDF_DIVIDE(VNDF_R(1.0), k.size > VNDF_R(0.0) ? k.size : VNDF_R(1.0));
+    // One feeds the other, which waits for its root (impl/stretch.h).
+    k.mu = k.inside ? k.mu : VNDF_R(1.0);
+    k.rcp = VNDF_DIVIDE(VNDF_R(1.0), k.omega * k.mu);
+    VNDF_REAL rcp_e =
+        VNDF_DIVIDE(VNDF_R(1.0), k.size > VNDF_R(0.0) && k.rcp > VNDF_R(0.0) ? k.size : VNDF_R(1.0));
     k.length = k.inside ? k.size * scale : rcp_e;
+    k.along = k.inside ? rcp_e * vndf_impl_rcp_power(scale) : k.size;
     k.ex = ex * rcp_e;
     k.ey = ey * rcp_e;
     k.ez = ez * rcp_e;
     k.qx = k.inside ? alpha_x * VNDF_FMA(more, wo_x, -c.more_x) : VNDF_R(0.0);
     k.qy = k.inside ? VNDF_FMA(more, wo_y, -c.more_y) * alpha_y : VNDF_R(0.0);
     k.qz = k.inside ? VNDF_FMA(more, wo_z, -c.more_z) : VNDF_R(0.0);
-    k.mu = k.inside ? k.mu : VNDF_R(1.0);
     k.kappa = k.inside ? k.kappa : VNDF_R(0.0);
-    k.rcp = VNDF_DIVIDE(VNDF_R(1.0), rcp_e > VNDF_R(0.0) ? k.omega * k.mu : VNDF_R(1.0));
-    k.product = k.inside ? VNDF_DIVIDE(q.d, k.mu) : VNDF_R(0.0);
+    k.product = k.inside ? q.d * (k.rcp * k.omega) : VNDF_R(0.0);
     k.sum = VNDF_FMA(k.mu, k.inside ? VNDF_R(2.0) * k.mu - q.t : VNDF_R(1.0), k.product);
     return k;
 }
