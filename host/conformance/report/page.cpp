@@ -54,7 +54,7 @@ std::string verdict(const Finding& finding) {
 
 std::string limit_of(const Finding& f) {
     const char* const relation = f.biased ? "documented" : f.is_p ? "at least" : "at most";
-    return fmt::format("{} {:.3g} {}", relation, f.limit, escaped(f.unit));
+    return fmt::format("{} {:.4g} {}", relation, f.limit, escaped(f.unit));
 }
 
 // "1,000,000"
@@ -105,9 +105,10 @@ std::string head(const Report& report, const PageOptions& options) {
 }
 
 bool is_shown(const FunctionReport& f, const PageOptions& options) {
+    // A BSDF's sampler has the pictures of lobes where the value or the density fails, too.
+    const auto fails = [](const LobePicture& picture) { return !picture.passed(); };
     return options.all || f.verdict() == Verdict::fail || f.verdict() == Verdict::inexact ||
-           !f.pictures
-                .empty();  // of a BSDF the sampler's: of lobes where the value or the density fails, too
+           std::any_of(f.pictures.begin(), f.pictures.end(), fails);
 }
 
 // A name that may be broken after each underscore.

@@ -57,7 +57,7 @@ namespace {
 
 std::string figure_text(const Finding& f) {
     const char* const relation = f.biased ? "documented:" : f.is_p ? "at least" : "at most";
-    return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, relation, f.limit,
+    return fmt::format("{} {:.3g} ({} {:.4g}{}{})", f.check, f.figure, relation, f.limit,
                        f.unit.empty() ? "" : " ", f.unit);
 }
 
