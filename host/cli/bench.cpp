@@ -333,7 +333,8 @@ void run_bench(Bench options, Common& common) {
     if (!options.user.file.empty()) user.emplace(options.user);
     if (user && !user->ours())
         throw InputError(
-            "--as bsdf: clvndf bench times a sampler, a density or a term; name what it is to be");
+            fmt::format("--as {}: clvndf bench times a sampler, a density or a term; name what it is to be",
+                        options.user.as));
     std::vector<NamedFile> outputs = {{"--json", options.json}};
     if (!options.report.empty())
         for (const char* name : {"bench.json", "index.html"})

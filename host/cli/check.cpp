@@ -128,7 +128,12 @@ void run_exhaustive(const Check& options, Common& common) {
 // The options that name this user's function, for clvndf eval...
 std::string user_in_words(const conformance::UserOptions& user, const Function& function) {
     std::string words = " --kernel " + quoted_for_shell(user.file) + " --as ";
-    words += function.name == user.function ? user.as : function.model;
+    if (user.as == "bsdf")
+        words += function.name == user.function ? "bsdf_value"
+                 : function.name == user.pdf    ? "bsdf_pdf"
+                                                : "bsdf_sample";
+    else
+        words += function.name == user.function ? user.as : function.model;
     return words + (user.options.empty() ? "" : " --options " + quoted_for_shell(user.options));
 }
 
@@ -147,6 +152,12 @@ std::string user_in_words(const conformance::UserOptions& user) {
     return words + (user.scope.isotropic ? " --isotropic" : "");
 }
 
+conformance::CommandOf command_of_eval(const Check& options) {
+    return [&user = options.user, target = options.target.in_words()](const Function& f) {
+        return "clvndf eval " + f.name + (user.file.empty() ? "" : user_in_words(user, f)) + target;
+    };
+}
+
 // FOLDER/index.html.
 class Page {
   public:
@@ -160,14 +171,11 @@ class Page {
         conformance::PageOptions page;
         page.software = "clvndf " CLVNDF_VERSION;
         page.all = options_.all;
-        const std::string target = options_.target.in_words();
-        page.evaluate = [=, &user = options_.user](const Function& f) {
-            return "clvndf eval " + f.name + (user.file.empty() ? "" : user_in_words(user, f)) + target;
-        };
+        page.evaluate = command_of_eval(options_);
         std::string run = options_.quick ? " --quick" : "";
         if (options_.points) run += fmt::format(" --points {}", options_.points);
         if (common_.seed != Common().seed) run += fmt::format(" --seed {}", common_.seed);
-        page.check = [=, &user = options_.user](const Function& f) {
+        page.check = [=, target = options_.target.in_words(), &user = options_.user](const Function& f) {
             return "clvndf check" + (user.file.empty() ? " --only " + f.name : user_in_words(user)) + run +
                    target;
         };
@@ -188,6 +196,10 @@ void run_check(const Check& options, Common& common) {
     if (options.digest) return run_digest(options, common);
     std::optional<conformance::UserKernel> user;
     if (!options.user.file.empty()) user.emplace(options.user);
+    if (user && !user->is_bsdf() && !user->ours())
+        throw InputError(fmt::format(
+            "--as {}: of clvndf eval; check judges the three functions of a bsdf together: --as bsdf",
+            options.user.as));
     const auto selected = user ? std::vector<const Function*>() : selected_by(options.only);
     std::vector<NamedFile> outputs = {{"--json", options.json}, {"--junit", options.junit}};
     if (!options.report.empty()) outputs.push_back({"--report", in_folder(options.report, "index.html")});
@@ -223,7 +235,7 @@ void run_check(const Check& options, Common& common) {
     if (json) json->write(conformance::format_json(report)), json->commit();
     if (junit) junit->write(conformance::format_junit(report)), junit->commit();
     if (page) page->write(report);
-    if (table) put(conformance::format_table(report));
+    if (table) put(conformance::format_table(report, command_of_eval(options)));
     common.exit_status = report.passed() ? 0 : 1;
 }
 

@@ -82,6 +82,9 @@ void append_rows(std::string& text, const std::vector<std::vector<Out>>& columns
 // In and Out: the evaluator's real types.
 template <class In, class Out>
 void stream(const Eval& eval, const Common& common) {
+    if (eval.user.as == "bsdf")
+        throw InputError(fmt::format("--as bsdf: eval takes one function at a time: --as {}",
+                                     fmt::join(conformance::bsdf_parts(), ", ")));
     std::optional<conformance::UserKernel> user;
     if (!eval.user.file.empty()) user.emplace(eval.user);
     const Function& function = user ? user->function() : named_function(eval.name);
@@ -134,7 +137,8 @@ void add_eval(CLI::App& app, Common& common) {
     command->add_option("--output", eval->output, "CSV to write, or -")->capture_default_str();
     command->add_flag("--hex", eval->hex, "C99 hex numbers in the output");
     add_kernel(*command, eval->user, "evaluate a function of this file of OpenCL C, as clvndf check does",
-               "the function of clvndf list whose arguments it has")
+               fmt::format("the function of clvndf list whose arguments it has, or {}",
+                           fmt::join(conformance::bsdf_parts(), ", ")))
         ->excludes(command->get_option("--on"))
         ->excludes(command->get_option("--math"));
     command->callback([eval, &common] {

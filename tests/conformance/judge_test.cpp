@@ -222,11 +222,13 @@ TEST_CASE("a BSDF is judged by its value, its density and its samples") {
     CHECK(bsdf_mistake("NONE") == "passed");
     CHECK_THAT(bsdf_mistake("NO_COSINE"), ContainsSubstring("the value lacks the cosine of wi"));
     CHECK_THAT(bsdf_mistake("OTHER_PDF"), ContainsSubstring("the samples do not follow my_pdf"));
+    CHECK_THAT(bsdf_mistake("NO_DIRECTION"), ContainsSubstring("my_sample gives what is no number"));
 }
 
 TEST_CASE("every mistake in a BSDF is named", "[.judge-full]") {
     CHECK_THAT(bsdf_mistake("ONE_SIDED"), ContainsSubstring("G1 in place of G2"));
     CHECK_THAT(bsdf_mistake("NO_G"), ContainsSubstring("more light is reflected than there is"));
+    CHECK_THAT(bsdf_mistake("BRIGHT"), ContainsSubstring("more light is reflected than there is"));
     CHECK_THAT(bsdf_mistake("DOUBLED"), ContainsSubstring("weights are 2 times value over density"));
     CHECK_THAT(bsdf_mistake("WEIGHT_WITH_COSINE"), ContainsSubstring("a cosine of wi that the value lacks"));
 }
@@ -277,6 +279,10 @@ TEST_CASE("what cannot be judged is refused in one line") {
         {right + "--function my_pdf --as ggx_pdf_wm --pdf other", "--pdf 'other': of a sampler or a bsdf"},
         {right + "--function my_pdf --as bsdf --pdf other", "--as bsdf: --function names its value"},
         {right + "--function my_sample --as ggx_sample_wm --sample s", "--sample 's': of --as bsdf alone"},
+        {right + "--function my_pdf --as bsdf_pdf",
+         "--as bsdf_pdf: of clvndf eval; check judges the three functions of a bsdf together"},
+        {"eval my_sample --as bsdf --kernel " + folder + "bsdf.cl",
+         "--as bsdf: eval takes one function at a time: --as bsdf_value, bsdf_pdf, bsdf_sample"},
         {right + "--function my_sample --as ggx_sample_wm --alpha 1:0.1",
          "--alpha: '1:0.1' is no range LO:HI"},
         {right + "--function my_sample --as ggx_sample_wm --only vndf_reflect", "--only"},

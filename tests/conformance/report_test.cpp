@@ -6,10 +6,12 @@
 #include <functional>
 #include <regex>
 
+#include "conformance/judge/bsdf.h"
 #include "conformance/report/cells.h"
 #include "conformance/report/page.h"
 #include "conformance/report/picture.h"
 #include "conformance/runs/check.h"
+#include "conformance/runs/user_check.h"
 #include "gltf/decode.h"
 #include "gltf/uri.h"
 #include "support/command.h"
@@ -220,6 +222,77 @@ TEST_CASE("the page of a user's function shows it as ours, with commands that ru
         " --kernel 'it'\\''s.cl' --function my_sample --as ggx_sample_wm --options '-DX' "
         "--alpha 0.1:0.5 --isotropic --quick";
     CHECK_THAT(page, ContainsSubstring("clvndf check" + words) && ContainsSubstring("Not judged: "));
+}
+
+namespace {
+
+constexpr const char* bsdf_words = " --function my_value --as bsdf --pdf my_pdf --sample my_sample";
+
+// Of the lobes in a quick check of tests/judge/bsdf.cl with this mistake.
+std::vector<LobePicture> pictures_of_bsdf(const std::string& mistake, Pictures pictures) {
+    UserOptions user;
+    user.file = CLVNDF_SOURCE_DIR "/tests/judge/bsdf.cl", user.options = "-D" + mistake;
+    user.function = "my_value", user.as = "bsdf", user.pdf = "my_pdf", user.sample = "my_sample";
+    const UserKernel kernel(user);
+    runtime::DeviceEvaluator evaluator = kernel.evaluator(runtime::choose_device().device);
+    CheckOptions options;
+    options.quick = true, options.random_points = 4096, options.pictures = pictures;
+    return check_user_kernel(kernel, evaluator, options).functions.back().pictures;
+}
+
+}  // namespace
+
+TEST_CASE("lobes of a BSDF have pictures of what fails there, of its samples, its value or its density") {
+    CHECK(pictures_of_bsdf("NONE", Pictures::failed).empty());
+    CHECK(pictures_of_bsdf("NONE", Pictures::all).size() == 4);
+    const std::vector<LobePicture> others = pictures_of_bsdf("OTHER_PDF", Pictures::failed);
+    REQUIRE_FALSE(others.empty());
+    double least = 0, most = 0;
+    for (const LobePicture& picture : others) {
+        CHECK_FALSE(picture.passed());
+        const std::size_t bins = (picture.bins.theta.size() - 1) * (picture.bins.phi.size() - 1);
+        REQUIRE(picture.directions.observed.size() == bins + 1);
+        REQUIRE(picture.directions.expected.size() == bins + 1);
+        double counted = 0;
+        for (std::size_t i = 0; i <= bins; ++i) {
+            const std::uint32_t observed = picture.directions.observed[i];
+            const double sigma = deviations(observed, picture.directions.expected[i]);
+            least = std::min(least, sigma), most = std::max(most, sigma), counted += observed;
+        }
+        CHECK(counted == bsdf_samples);
+    }
+    CHECK((least < -7 && most > 7));
+    // Only the value's furnace fails: its lobe is drawn, and named for it.
+    const std::vector<LobePicture> bright = pictures_of_bsdf("BRIGHT", Pictures::failed);
+    REQUIRE_FALSE(bright.empty());
+    for (const LobePicture& picture : bright) {
+        CHECK((picture.tests[0].name == "furnace" && !picture.tests[0].passed()));
+        CHECK(picture.tests[2].passed());
+    }
+}
+
+TEST_CASE("the page of a BSDF shows the lobes that fail, and evaluates its worst inputs again") {
+    const Folder folder;
+    std::filesystem::copy_file(CLVNDF_SOURCE_DIR "/tests/judge/bsdf.cl", folder / "a b.cl");
+    const std::string check =
+        "\"$clvndf\" check --quick --points 4096 --kernel 'a b.cl'" + std::string(bsdf_words);
+    REQUIRE(shell(folder, check + " --options -DOTHER_PDF --report page >out 2>err") == 1);
+    const std::string page = folder.read("page/index.html"), text = folder.read("out");
+    CHECK(unbalanced(page) == "");
+    CHECK(count(page, "<figure>") > 0);
+    CHECK_THAT(page, ContainsSubstring("FAIL chi2 of the samples against my_pdf p = ") &&
+                         ContainsSubstring("all light: 0.") && ContainsSubstring("mean weight: 0."));
+    CHECK(run_commands(folder, page, 99, {}) > 4);
+    // The same commands stand in the text.
+    static const std::regex again("again: (printf [^\n]*)\n  gives ([^\n]*)\n");
+    std::size_t commands = 0;
+    for (std::sregex_iterator i(text.begin(), text.end(), again), end; i != end; ++i, ++commands)
+        CHECK_THAT(unescaped(page),
+                   ContainsSubstring("<pre>" + (*i)[1].str() + "</pre><span class=small>gives " +
+                                     (*i)[2].str() + "<"));
+    CHECK(commands > 2);
+    CHECK_THAT(
+        text, ContainsSubstring("eval my_sample --kernel 'a b.cl' --as bsdf_sample --options '-DOTHER_PDF'"));
 }
 
 TEST_CASE("a function that is inexact has a page that says so, and where") {

@@ -1,4 +1,9 @@
 // A rough conductor that reflects all: value times the cosine, density and samples; and mistakes in each.
+#ifdef BRIGHT
+#define REFLECTED 1.2f
+#else
+#define REFLECTED 1.0f
+#endif
 float3 stretched(float3 w, float2 alpha) {
     return normalize((float3)(alpha * w.xy, w.z));
 }
@@ -18,7 +23,7 @@ float my_value(float3 wo, float3 wi, float2 alpha) {
 #else
     const float g = 1.0f / (1.0f + lambda(wo, alpha) + lambda(wi, alpha));
 #endif
-    const float f = d_of(normalize(wo + wi), alpha) * g / (4.0f * wo.z);
+    const float f = REFLECTED * d_of(normalize(wo + wi), alpha) * g / (4.0f * wo.z);
 #ifdef NO_COSINE
     return f / wi.z;
 #else
@@ -44,7 +49,11 @@ float4 my_sample(float3 wo, float2 alpha, float3 u) {
     const float3 m = stretched((float3)(s * cos(phi), s * sin(phi), z) + v, alpha);
     const float3 wi = 2.0f * dot(wo, m) * m - wo;
     if (wi.z <= 0.0f) return (float4)(0.0f, 0.0f, 1.0f, 0.0f);
-    const float weight = (1.0f + lambda(wo, alpha)) / (1.0f + lambda(wo, alpha) + lambda(wi, alpha));
+#ifdef NO_DIRECTION
+    if (u.z < 0.25f) return (float4)(NAN, NAN, NAN, 1.0f);
+#endif
+    const float weight =
+        REFLECTED * (1.0f + lambda(wo, alpha)) / (1.0f + lambda(wo, alpha) + lambda(wi, alpha));
 #ifdef WEIGHT_WITH_COSINE
     return (float4)(wi, weight * wi.z);
 #else

@@ -96,7 +96,7 @@ inline const std::map<std::string, Values>& values() {
         {"--kernel", {{"a.cl", "a b.cl"}, {""}}},
         {"--function", {{"f", "my_sample"}, {""}}},
         {"check --as", {{"ggx_sample_wm", "bsdf"}, {""}}},
-        {"eval --as", {{"ggx_sample_wm", "ggx_pdf_wm"}, {""}}},
+        {"eval --as", {{"ggx_sample_wm", "ggx_pdf_wm", "bsdf_sample"}, {""}}},
         {"bench --as", {{"ggx_sample_wm", "ggx_pdf_wm"}, {""}}},
         {"--pdf", {{"f", "my_pdf"}, {""}}},
         {"--sample", {{"f", "my_sample"}, {""}}},

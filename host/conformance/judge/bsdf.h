@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "conformance/inputs/grids.h"
-#include "conformance/judge/finding.h"
+#include "conformance/judge/lobes.h"
 #include "runtime/device_evaluator.h"
 
 namespace vndf::conformance {
@@ -15,8 +15,9 @@ inline constexpr std::size_t bsdf_samples = std::size_t{1} << 17;  // for each l
 
 struct BsdfFindings {
     std::vector<Finding> value, density, sample;
-    std::size_t tests = 0;  // statistical ones
-    std::string diagnosis;  // of what fails, or empty
+    std::vector<LobePicture> pictures;  // of every lobe; rows are the sampler's
+    std::size_t tests = 0;              // statistical ones
+    std::string diagnosis;              // of what fails, or empty
 };
 
 // wo is in front. family_rate: of false alarms over all tests.

@@ -40,10 +40,12 @@ std::string Errors::summary() const {
                        percentile(99.9), max());
 }
 
-std::string hex_row(const Function& function, const std::vector<double>& row) {
+std::string hex_row(const Function& function, const std::vector<double>& row,
+                    bool wanted(const std::string& input)) {
     std::string text;
     for (std::size_t i = 0; i < row.size(); ++i)
-        text += fmt::format("{}{}={:a}", i ? " " : "", function.inputs[i], row[i]);
+        if (!wanted || wanted(function.inputs[i]))
+            text += fmt::format("{}{}={:a}", text.empty() ? "" : " ", function.inputs[i], row[i]);
     return text;
 }
 

@@ -51,8 +51,9 @@ class Errors {
     std::size_t worst_ = 0;
 };
 
-// "wo_x=0x1.8p-1 wo_y=..." for a row of the function's inputs.
-std::string hex_row(const Function& function, const std::vector<double>& row);
+// "wo_x=0x1.8p-1 wo_y=..." for a row of the function's inputs, or of those of them that are `wanted`.
+std::string hex_row(const Function& function, const std::vector<double>& row,
+                    bool wanted(const std::string& input) = nullptr);
 
 // The finding that `figure`, of these errors, stays below `limit`.
 Finding make_finding(std::string check, double figure, double limit, std::string unit, const Errors& errors,

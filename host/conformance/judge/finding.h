@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "registry.h"
+
 namespace vndf::conformance {
 
 // What it means that a figure is beyond its limit: a mistake, lost precision, or nothing, since it was measured where the
@@ -27,6 +29,12 @@ struct Finding {
     double p50 = 0, p99 = 0, max = 0;  // of the errors behind a pointwise figure
     // Of a pointwise figure: the worst inputs, and what the function and the reference make of them (if asked for).
     std::vector<double> row, result, exact;
+    // What the figure compares the result with: other values of the user's functions.
+    struct Value {
+        const Function* function;
+        std::vector<double> row, result;
+    };
+    std::vector<Value> beside = {};
 
     bool passed() const;
     // How near to the limit: above 1 is a failure. Comparable between kinds of figures.

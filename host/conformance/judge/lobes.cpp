@@ -15,8 +15,7 @@ namespace {
 
 constexpr std::size_t pivot_cells = LobePicture::cells, angle_bins = LobePicture::cells;
 constexpr std::size_t ks_bins = std::size_t{1} << 16;
-constexpr std::size_t pool_below = 16;      // expectation per cell: at levels of 1e-10 more than the usual 5
-constexpr std::size_t histogram_share = 4;  // one of so many samples, in whole chunks
+constexpr std::size_t pool_below = 16;  // expectation per cell: at levels of 1e-10 more than the usual 5
 constexpr std::size_t means = reference::Moments::count + 3;
 
 // Counts and sums of the samples.
@@ -165,6 +164,30 @@ LobeTest worst_of(const std::vector<MeanTest>& means) {
 
 }  // namespace
 
+bool is_of_lobe(const std::string& input) {
+    return input != "u1" && input != "u2" && input != "u3";
+}
+
+bool LobePicture::passed() const {
+    return std::all_of(tests.begin(), tests.end(), [](const LobeTest& test) { return test.passed(); });
+}
+
+void WorstLobes::add(const LobeTest& test, const std::vector<double>& row) {
+    Finding finding;
+    finding.check = test.name, finding.figure = test.figure, finding.detail = test.detail;
+    finding.is_p = test.is_p, finding.limit = test.limit;
+    finding.unit = test.is_p ? "probability" : test.unit;
+    finding.worst = hex_row(sampler_, row, is_of_lobe);
+    const auto [place, added] = findings_.try_emplace(test.name, finding);
+    const std::size_t count = place->second.count + 1;
+    if (!added && finding.severity() > place->second.severity()) place->second = finding;
+    place->second.count = count;
+}
+
+void WorstLobes::append_to(std::vector<Finding>& findings) const {
+    for (const auto& [_, finding] : findings_) findings.push_back(finding);
+}
+
 std::size_t tests_per_lobe(const Function& sampler) {
     return 4 + (sampler.result == "WM" ? means : reference::Moments::count);
 }
@@ -189,7 +212,7 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
         const double p =
             noncentrality > 0 ? noncentral_chi_square_p(chi.statistic, chi.degrees, noncentrality) : chi.p;
         tests.push_back(
-            {name, true, p, fmt::format("chi2 {:.1f} with {} degrees", chi.statistic, chi.degrees)});
+            {name, true, p, fmt::format("chi2 {:.1f} with {} degrees", chi.statistic, chi.degrees), level});
     };
     // A direction rounded to T may have lost its place in the lobe: reflected ones at small alpha and grazing
     // angles, normals of Beckmann lobes seen from far below. Elsewhere rounding moves pivots and cells by less
@@ -202,7 +225,7 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
             const Kolmogorov ks = kolmogorov(tally.pivot[i]);
             tests.push_back({i ? "KS of pivot 2" : "KS of pivot 1", true,
                              kolmogorov_p(std::max(0.0, ks.distance - bias.distance), samples),
-                             fmt::format("distance {:.3g}", ks.distance)});
+                             fmt::format("distance {:.3g}", ks.distance), level});
         }
         std::vector<double> expected = distribution.bin_probabilities(bins);
         for (double& probability : expected) probability *= samples / histogram_share;

@@ -1,6 +1,7 @@
 // Statistical checks of a sampler's directions for one lobe: what the samples say about their density.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,22 @@ struct KnownBias {
     double mean = 0;        // of the mean of any component, in its standard deviations
 };
 
-// One statistical test of one lobe.
+// One of so many samples is in the histogram of directions.
+inline constexpr std::size_t histogram_share = 4;
+
+// Whether an input of a sampler chooses the lobe: all but random numbers do.
+bool is_of_lobe(const std::string& input);
+
+// One test of one lobe.
 struct LobeTest {
-    const char* name;  // "chi2 of the pivots", ...
+    std::string name;  // "chi2 of the pivots", ...
     bool is_p = true;
-    double figure = 1;  // p, or for means the deviation in tolerances
+    double figure = 1;  // p, or what may be no larger than the limit: of means the deviation in tolerances
     std::string detail;
+    double limit = 1;
+    const char* unit = "tolerances";
+
+    bool passed() const { return is_p ? figure >= limit : figure <= limit; }
 };
 
 // Counts in cells beside what is expected there, row by row.
@@ -40,15 +51,32 @@ struct MeanTest {
 
 // What the tests of a lobe looked at, to be drawn.
 struct LobePicture {
-    static constexpr std::size_t cells = 32;  // of a histogram, either way
+    static constexpr std::size_t cells = 32;  // of a histogram of a sampler's, either way
 
     std::vector<double> row;  // the sampler's inputs; u is not read
-    // Empty where the type cannot tell directions of the lobe apart.
+    // Empty where the type cannot tell directions of the lobe apart; the pivots of a BSDF, which has none, always.
     CellCounts pivots;      // [pivot 1][pivot 2]
     CellCounts directions;  // [theta][phi] between the edges of `bins`, and one more for those outside
     reference::Bins bins;
     std::vector<MeanTest> means;
+    std::vector<std::string> notes;  // further figures in words, a line each
     std::vector<LobeTest> tests;
+
+    bool passed() const;
+};
+
+// Keeps, for each kind of test, the worst lobe.
+class WorstLobes {
+  public:
+    // The rows that come are inputs of this function.
+    explicit WorstLobes(const Function& sampler) : sampler_(sampler) {}
+
+    void add(const LobeTest& test, const std::vector<double>& row);
+    void append_to(std::vector<Finding>& findings) const;
+
+  private:
+    const Function& sampler_;
+    std::map<std::string, Finding> findings_;
 };
 
 // The tests that a lobe of this sampler takes, judged or not: the run's count for Sidak.

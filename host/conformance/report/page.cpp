@@ -54,7 +54,7 @@ std::string verdict(const Finding& finding) {
 
 std::string limit_of(const Finding& f) {
     const char* const relation = f.biased ? "documented" : f.is_p ? "at least" : "at most";
-    return fmt::format("{} {:.3g} {}", relation, f.limit, escaped(f.unit));
+    return fmt::format("{} {:.4g} {}", relation, f.limit, escaped(f.unit));
 }
 
 // "1,000,000"
@@ -89,9 +89,10 @@ std::string head(const Report& report, const PageOptions& options) {
     fact("device", report.device);
     fact("build options", report.options);
     fact("arithmetic", report.math + " " + report.real);
-    fact("samples", fmt::format("{} a lobe, seed {}{}; one in four of them in the histograms of directions",
-                                report.samples, report.seed,
-                                report.quick ? " (quick: fewer lobes, samples and inputs)" : ""));
+    fact("samples",
+         fmt::format("{} a lobe, seed {}{}; {} of them in the histograms of directions", report.samples,
+                     report.seed, report.quick ? " (quick: fewer lobes, samples and inputs)" : "",
+                     report.in_histogram == report.samples ? "all" : fmt::format("{}", report.in_histogram)));
     if (report.tests > 0)
         fact("false alarms",
              fmt::format("{} statistical tests. Were all of it right, chance alone would fail a run like "
@@ -104,7 +105,10 @@ std::string head(const Report& report, const PageOptions& options) {
 }
 
 bool is_shown(const FunctionReport& f, const PageOptions& options) {
-    return options.all || f.verdict() == Verdict::fail || f.verdict() == Verdict::inexact;
+    // A BSDF's sampler has the pictures of lobes where the value or the density fails, too.
+    const auto fails = [](const LobePicture& picture) { return !picture.passed(); };
+    return options.all || f.verdict() == Verdict::fail || f.verdict() == Verdict::inexact ||
+           std::any_of(f.pictures.begin(), f.pictures.end(), fails);
 }
 
 // A name that may be broken after each underscore.
@@ -139,31 +143,14 @@ std::string guide(const Report& report) {
     return fmt::format(
         R"(<h2>How to read the pictures</h2>
 <p class=small>Each is of one lobe. <b>Directions</b>: azimuth to the right, polar angle upwards, of the normal (of the half
-vector for reflections). Cells are cut so that every row and every column expects equally many; dark cells have more, up to the
-number beside the scale, by square roots. <b>Difference, in σ</b>: measured minus expected in standard deviations of the count;
+vector for reflections). Cells are cut so that every row and every column expects equally many; of a BSDF they are equal steps of
+the angles of wi, over the whole sphere. Dark cells have more, up to the number beside the scale, by square roots. <b>Difference, in σ</b>: measured minus expected in standard deviations of the count;
 blue is too few, brown too many. A right sampler shows pale noise without a pattern. <b>Pivots</b>: two numbers that the
 reference makes of each direction, uniform and independent if the sampler is right; beside them the histogram of each over what
 is expected, with a band of one standard deviation. <b>Means</b>: measured minus expected; dots beyond ±1 fail, bars are one
 standard error. χ² (chi2) and Kolmogorov–Smirnov (KS) fail below p = {:.2g}.</p>
 )",
         report.level);
-}
-
-std::string values(const Function& function, const std::vector<double>& numbers, Real real) {
-    std::string out;
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-        out += (k ? ", " : "") + function.outputs[k] + "=" +
-               (real == Real::f32 ? fmt::format("{}", static_cast<float>(numbers[k]))
-                                  : fmt::format("{}", numbers[k]));
-    return out;
-}
-
-std::string eval_command(const Function& function, const std::vector<double>& row,
-                         const PageOptions& options) {
-    std::vector<std::string> cells;
-    for (const double x : row) cells.push_back(fmt::format("{:a}", x));
-    return fmt::format("printf '%s\\n' {} {} | {}", fmt::join(function.inputs, ","), fmt::join(cells, ","),
-                       options.evaluate(function));
 }
 
 std::string findings(const FunctionReport& f) {
@@ -178,41 +165,41 @@ std::string findings(const FunctionReport& f) {
     return out + "</tbody></table>\n";
 }
 
-std::string worst_inputs(const FunctionReport& f, Real real, const PageOptions& options) {
+std::string worst_inputs(const FunctionReport& f, const std::string& real, const PageOptions& options) {
     std::string out;
     for (const Finding& finding : f.findings) {
-        if (finding.result.empty() || finding.figure == 0) continue;  // no input is worse than others
-        const std::string exact =
-            finding.exact.empty() ? "" : "; exact " + values(*f.function, finding.exact, Real::f64);
-        out += fmt::format("<dt>{}</dt><dd><pre>{}</pre><span class=small>gives {}{}</span></dd>\n",
-                           escaped(finding.check), escaped(eval_command(*f.function, finding.row, options)),
-                           values(*f.function, finding.result, real), exact);
+        std::string again;
+        for (const Repetition& r : repetitions(*f.function, finding, real, options.evaluate))
+            again += fmt::format("<pre>{}</pre><span class=small>gives {}</span>\n", escaped(r.command),
+                                 escaped(r.gives));
+        if (!again.empty()) out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(finding.check), again);
     }
-    return out.empty() ? out
-                       : "<h3>Worst inputs (with <code>--on reference</code> instead of a device: the exact "
-                         "value)</h3>\n<dl>" +
-                             out + "</dl>\n";
+    if (out.empty()) return out;
+    const bool registered = f.function->model == f.function->name;
+    return fmt::format(
+        "<h3>Worst inputs{}</h3>\n<dl>{}</dl>\n",
+        registered ? " (with <code>--on reference</code> instead of a device: the exact value)" : "", out);
 }
 
 // "wo_x 0.77, alpha_x 0.5", without the u that samples bring.
 std::string lobe_in_words(const Function& function, const std::vector<double>& row) {
     std::string out;
     for (std::size_t i = 0; i < row.size(); ++i)
-        if (function.inputs[i] != "u1" && function.inputs[i] != "u2")
+        if (is_of_lobe(function.inputs[i]))
             out += fmt::format("{}{} {:.4g}", out.empty() ? "" : ", ", function.inputs[i], row[i]);
     const double cosine = RowReader(function).cos_theta_o(row.data());
     return out + fmt::format("; wo {:.3g}° from the normal",
                              std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / 3.14159265358979);
 }
 
-std::string figure(const FunctionReport& f, const LobePicture& picture, double level) {
+std::string figure(const FunctionReport& f, const LobePicture& picture) {
     std::string tests;
     for (const LobeTest& test : picture.tests) {
-        const bool passed = test.is_p ? test.figure >= level : test.figure <= 1;
-        tests += fmt::format("{}{}{} {} {:.3g}{}{}", tests.empty() ? "" : " · ",
-                             passed ? "" : "<span class=bad>FAIL ", escaped(test.name),
-                             test.is_p ? "p =" : "worst", test.figure, test.is_p ? "" : " tolerances",
-                             passed ? "" : "</span>");
+        const bool passed = test.passed();
+        tests +=
+            fmt::format("{}{}{} {}{:.3g} {}{}", tests.empty() ? "" : " · ",
+                        passed ? "" : "<span class=bad>FAIL ", escaped(test.name), test.is_p ? "p = " : "",
+                        test.figure, test.is_p ? "" : test.unit, passed ? "" : "</span>");
     }
     return fmt::format("<figure><figcaption><b>{}</b><br>{}</figcaption>{}</figure>\n",
                        escaped(lobe_in_words(*f.function, picture.row)), tests, draw(picture));
@@ -227,11 +214,11 @@ std::string section(const FunctionReport& f, const Report& report, const PageOpt
     if (!f.diagnosis.empty()) out += fmt::format("<p><b>{}</b></p>\n", escaped(f.diagnosis));
     if (!f.not_judged.empty())
         out += fmt::format("<p class=small>Not judged: {}</p>\n", escaped(f.not_judged));
-    out += findings(f) + worst_inputs(f, report.real == "float" ? Real::f32 : Real::f64, options);
+    out += findings(f) + worst_inputs(f, report.real, options);
     if (!f.pictures.empty()) {
         out += fmt::format("<h3>{} lobe{}{}</h3>\n", f.pictures.size(), f.pictures.size() == 1 ? "" : "s",
                            options.all ? "" : ", those that fail");
-        for (const LobePicture& picture : f.pictures) out += figure(f, picture, report.level);
+        for (const LobePicture& picture : f.pictures) out += figure(f, picture);
     }
     return out + "</section>\n";
 }

@@ -1,7 +1,6 @@
 // A run as one HTML page that needs no other file: a row a function, and what its histograms and means looked like.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "conformance/report/report.h"
@@ -12,7 +11,7 @@ struct PageOptions {
     std::string software;  // "clvndf 1.0"
     bool all = false;      // functions that pass in full, too
     // Commands that evaluate a function at rows of CSV on the standard input, and that check it alone as this run did.
-    std::function<std::string(const Function&)> evaluate, check;
+    CommandOf evaluate, check;
 };
 
 // The same run makes the same page.

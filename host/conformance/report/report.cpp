@@ -57,7 +57,7 @@ namespace {
 
 std::string figure_text(const Finding& f) {
     const char* const relation = f.biased ? "documented:" : f.is_p ? "at least" : "at most";
-    return fmt::format("{} {:.3g} ({} {:.3g}{}{})", f.check, f.figure, relation, f.limit,
+    return fmt::format("{} {:.3g} ({} {:.4g}{}{})", f.check, f.figure, relation, f.limit,
                        f.unit.empty() ? "" : " ", f.unit);
 }
 
@@ -66,9 +66,39 @@ std::string headline(const Finding& finding) {
     return finding.concern == Concern::wrong ? "FAILED" : to_string(finding.concern);
 }
 
+std::string values(const Function& function, const std::vector<double>& numbers, bool in_float) {
+    std::string out;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        out += (k ? ", " : "") + function.outputs[k] + "=" +
+               (in_float ? fmt::format("{}", static_cast<float>(numbers[k])) : fmt::format("{}", numbers[k]));
+    return out;
+}
+
+std::string eval_command(const Function& function, const std::vector<double>& row,
+                         const CommandOf& evaluate) {
+    std::vector<std::string> cells;
+    for (const double x : row) cells.push_back(fmt::format("{:a}", x));
+    return fmt::format("printf '%s\\n' {} {} | {}", fmt::join(function.inputs, ","), fmt::join(cells, ","),
+                       evaluate(function));
+}
+
 }  // namespace
 
-std::string format_table(const Report& report) {
+std::vector<Repetition> repetitions(const Function& function, const Finding& finding, const std::string& real,
+                                    const CommandOf& evaluate) {
+    if (finding.result.empty() || finding.figure == 0) return {};
+    std::vector<Repetition> all;
+    const auto add = [&](const Function& f, const std::vector<double>& row,
+                         const std::vector<double>& result) {
+        all.push_back({eval_command(f, row, evaluate), values(f, result, real == "float")});
+    };
+    add(function, finding.row, finding.result);
+    if (!finding.exact.empty()) all.back().gives += "; exact " + values(function, finding.exact, false);
+    for (const Finding::Value& value : finding.beside) add(*value.function, value.row, value.result);
+    return all;
+}
+
+std::string format_table(const Report& report, const CommandOf& evaluate) {
     std::size_t width = 8, figure_width = 12;
     for (const FunctionReport& f : report.functions) {
         width = std::max(width, f.function->name.size());
@@ -83,12 +113,21 @@ std::string format_table(const Report& report) {
                             worst ? figure_text(*worst) : "nothing checked", figure_width,
                             worst ? worst->worst : "");
     }
-    for (const FunctionReport& f : report.functions)
-        for (const Finding& finding : f.findings)
-            if (!finding.passed() || finding.biased)
-                text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", headline(finding), f.function->name,
-                                    figure_text(finding), finding.detail.empty() ? "" : "; ", finding.detail,
-                                    finding.worst);
+    for (const FunctionReport& f : report.functions) {
+        const Finding* before = nullptr;
+        for (const Finding& finding : f.findings) {
+            if (finding.passed() && !finding.biased) continue;
+            text += fmt::format("\n{} {}: {}{}{}\n  at {}\n", headline(finding), f.function->name,
+                                figure_text(finding), finding.detail.empty() ? "" : "; ", finding.detail,
+                                finding.worst);
+            // Percentiles of the same errors have the same worst input: once is enough.
+            const bool again = before && before->row == finding.row;
+            before = &finding;
+            if (!evaluate || finding.passed() || again) continue;
+            for (const Repetition& r : repetitions(*f.function, finding, report.real, evaluate))
+                text += fmt::format("  again: {}\n  gives {}\n", r.command, r.gives);
+        }
+    }
     for (const FunctionReport& f : report.functions) {
         if (!f.diagnosis.empty()) text += fmt::format("\n{}: {}\n", f.function->name, f.diagnosis);
         if (!f.not_judged.empty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,11 @@ struct Report {
     std::size_t bit_rows = 0;
     std::uint64_t seed = 0;
     bool quick = false;
-    std::size_t samples = 0;  // for each lobe
-    std::size_t tests = 0;    // statistical tests in the run
-    double family_rate = 0;   // of false alarms over all of them
-    double level = 0;         // for each of them, after Sidak
+    std::size_t samples = 0;       // for each lobe
+    std::size_t in_histogram = 0;  // of these, in the histogram of directions
+    std::size_t tests = 0;         // statistical tests in the run
+    double family_rate = 0;        // of false alarms over all of them
+    double level = 0;              // for each of them, after Sidak
     double seconds = 0;
 
     bool passed() const;
@@ -46,8 +48,19 @@ struct Report {
 
 std::string to_string(Verdict);
 
-// One row a function: verdict, worst figure, its limit, worst input; then the failures in full and a summary.
-std::string format_table(const Report&);
+using CommandOf = std::function<std::string(const Function&)>;
+
+// A command that evaluates the worst inputs of a finding again, and what it gives.
+struct Repetition {
+    std::string command, gives;
+};
+// None if no input is worse than others, or its values were not asked for. real: the report's. `evaluate` is as in PageOptions.
+std::vector<Repetition> repetitions(const Function& function, const Finding& finding, const std::string& real,
+                                    const CommandOf& evaluate);
+
+// One row a function: verdict, worst figure, its limit, worst input; then the failures in full, with the commands that evaluate
+// them again if `evaluate` makes them, and a summary.
+std::string format_table(const Report&, const CommandOf& evaluate = {});
 std::string format_json(const Report&);
 std::string format_junit(const Report&);
 

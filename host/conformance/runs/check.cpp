@@ -71,39 +71,6 @@ class Drawer {
     std::vector<std::vector<T>> inputs_;
 };
 
-// Keeps, for each kind of test, the worst lobe.
-class WorstLobes {
-  public:
-    WorstLobes(const Function& sampler, double level) : sampler_(sampler), level_(level) {}
-
-    // Returns whether the lobe passes.
-    bool add(const std::vector<LobeTest>& tests, const std::vector<double>& row) {
-        bool passed = true;
-        for (const LobeTest& test : tests) {
-            Finding finding;
-            finding.check = test.name, finding.figure = test.figure, finding.detail = test.detail;
-            finding.is_p = test.is_p;
-            finding.limit = test.is_p ? level_ : 1;
-            finding.unit = test.is_p ? "probability" : "tolerances";
-            finding.worst = hex_row(sampler_, row);
-            passed = passed && finding.passed();
-            const auto [place, added] = findings_.try_emplace(test.name, finding);
-            const std::size_t count = place->second.count + 1;
-            if (!added && finding.severity() > place->second.severity()) place->second = finding;
-            place->second.count = added ? 1 : count;
-        }
-        return passed;
-    }
-    void append_to(std::vector<Finding>& findings) const {
-        for (const auto& [_, finding] : findings_) findings.push_back(finding);
-    }
-
-  private:
-    const Function& sampler_;
-    double level_;
-    std::map<std::string, Finding> findings_;
-};
-
 class Run {
   public:
     Run(runtime::DeviceEvaluator& evaluator, runtime::Math math, const std::vector<const Function*>& selected,
@@ -116,6 +83,7 @@ class Run {
         report_.seed = options.seed;
         report_.quick = options.quick;
         report_.samples = std::size_t{1} << (options.quick ? 18 : 20);
+        report_.in_histogram = report_.samples / histogram_share;
         report_.family_rate = family_rate;
         pointwise_.quick = options.quick;
         pointwise_.scope = options.scope;
@@ -144,7 +112,7 @@ class Run {
                 for (Finding& finding : check_extremes(evaluator_, *function, pointwise_))
                     judged.findings.push_back(std::move(finding));
             for (Finding& finding : judged.findings)
-                if (is_drawn(finding.passed())) add_values(*function, finding);
+                if (!finding.passed() || options_.draws(finding.passed())) add_values(*function, finding);
             work_done_ += work(*function);
         }
         if (math_ == runtime::Math::strict && !options_.scope) compare_bits(selected);
@@ -164,10 +132,6 @@ class Run {
         bits.rows = report_.bit_rows = options_.quick ? quick_digest_rows : std::size_t{1} << 16;
         bits.flushes = !evaluator_.program().device().denormals;
         report_.bits = compare_with_host(evaluator_, selected, bits);
-    }
-
-    bool is_drawn(bool passed) const {
-        return options_.pictures == Pictures::all || (options_.pictures == Pictures::failed && !passed);
     }
 
     // What the function and the reference make of the finding's worst inputs.
@@ -202,13 +166,13 @@ class Run {
         const Function& sampler = *judged.function;
         const KnownBias bias = known_bias(sampler);
         Drawer<T> drawer(evaluator_, sampler, options_.seed, report_.samples);
-        WorstLobes worst(sampler, report_.level);
+        WorstLobes worst(sampler);
         // A thread for each lobe drawn, as many at once as the host has.
         std::deque<std::future<LobePicture>> judging;
         const auto finish_first = [&] {
             LobePicture picture = judging.front().get();
-            if (is_drawn(worst.add(picture.tests, picture.row)))
-                judged.pictures.push_back(std::move(picture));
+            for (const LobeTest& test : picture.tests) worst.add(test, picture.row);
+            if (options_.draws(picture.passed())) judged.pictures.push_back(std::move(picture));
             judging.pop_front();
         };
         // Numbered by function and lobe, so that --only repeats a run's samples.

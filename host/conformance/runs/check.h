@@ -12,7 +12,8 @@
 
 namespace vndf::conformance {
 
-// Of which lobes a report keeps what was counted, to be drawn; and of which findings the values at the worst inputs.
+// Of which lobes a report keeps what was counted, to be drawn; and of which findings, beside those that fail, the values at
+// the worst inputs.
 enum class Pictures { none, failed, all };
 
 struct CheckOptions {
@@ -22,6 +23,9 @@ struct CheckOptions {
     bool quick = false;  // 12 lobes instead of 60 or more, 2^18 samples instead of 2^20, fewer points
     const Scope* scope = nullptr;  // of a user's functions (user_kernel.h)
     Pictures pictures = Pictures::none;
+    bool draws(bool passed) const {
+        return pictures == Pictures::all || (pictures == Pictures::failed && !passed);
+    }
     // Called with what is being done and how much of the run is done (0 to 1).
     std::function<void(const std::string& what, double done)> progress = [](const std::string&, double) {};
 };

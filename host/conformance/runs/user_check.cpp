@@ -70,8 +70,10 @@ std::pair<Report, std::string> bsdf_report(const UserKernel& kernel, runtime::De
         judged.function = &function, judged.findings = std::move(findings);
     };
     add(value, found.value), add(density, found.density), add(sample, found.sample);
+    for (LobePicture& picture : found.pictures)
+        if (options.draws(picture.passed())) report.functions.back().pictures.push_back(std::move(picture));
     report.tests = found.tests, report.level = sidak(report.family_rate, found.tests);
-    report.samples = bsdf_samples;
+    report.samples = report.in_histogram = bsdf_samples;
     return {std::move(report), std::move(found.diagnosis)};
 }
 

@@ -44,9 +44,10 @@ const Function* registered(const std::string& name) {
 
 InputError unknown(const std::string& as) {
     return InputError(fmt::format(
-        "--as '{}': allowed are {}, bsdf, and functions of clvndf list that take no lobe; the nearest "
-        "of these are {}",
-        as, fmt::join(general_names(), ", "), fmt::join(nearest_names("vndf_" + as), ", ")));
+        "--as '{}': allowed are {}, bsdf (of check), {} (of eval), and functions of clvndf list that take no "
+        "lobe; the nearest of these are {}",
+        as, fmt::join(general_names(), ", "), fmt::join(bsdf_parts(), ", "),
+        fmt::join(nearest_names("vndf_" + as), ", ")));
 }
 
 bool is_identifier(const std::string& text) {
@@ -145,7 +146,25 @@ Function plain_function(const std::string& name, Kind kind, std::vector<std::str
     return f;
 }
 
+// As bsdf_parts() names it.
+Function bsdf_part(const std::string& part) {
+    const std::vector<std::string> pair{"wo_x", "wo_y", "wo_z", "wi_x", "wi_y", "wi_z", "alpha_x", "alpha_y"};
+    if (part == "bsdf_value") return plain_function({}, Kind::term, pair, {"value"}, "VALUE");
+    if (part == "bsdf_pdf") return plain_function({}, Kind::density, pair, {"pdf"}, "VALUE");
+    return plain_function({}, Kind::sampler, {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2", "u3"},
+                          {"wi_x", "wi_y", "wi_z", "weight"}, "WI");
+}
+
+bool is_bsdf_part(const std::string& as) {
+    return std::find(bsdf_parts().begin(), bsdf_parts().end(), as) != bsdf_parts().end();
+}
+
 }  // namespace
+
+const std::vector<std::string>& bsdf_parts() {
+    static const std::vector<std::string> names{"bsdf_value", "bsdf_pdf", "bsdf_sample"};
+    return names;
+}
 
 const std::vector<std::string>& general_names() {
     static const auto names = [] {
@@ -187,18 +206,14 @@ void UserKernel::describe() {
         if (options_.pdf.empty() || options_.sample.empty())
             throw InputError(
                 "--as bsdf: --function names its value, and it needs --pdf and --sample as well");
-        const std::vector<std::string> pair{"wo_x", "wo_y", "wo_z",    "wi_x",
-                                            "wi_y", "wi_z", "alpha_x", "alpha_y"};
-        add(plain_function({}, Kind::term, pair, {"value"}, "VALUE"), options_.function);
-        add(plain_function({}, Kind::density, pair, {"pdf"}, "VALUE"), options_.pdf);
-        add(plain_function({}, Kind::sampler,
-                           {"wo_x", "wo_y", "wo_z", "alpha_x", "alpha_y", "u1", "u2", "u3"},
-                           {"wi_x", "wi_y", "wi_z", "weight"}, "WI"),
-            options_.sample);
+        add(bsdf_part("bsdf_value"), options_.function);
+        add(bsdf_part("bsdf_pdf"), options_.pdf);
+        add(bsdf_part("bsdf_sample"), options_.sample);
         return;
     }
     if (!options_.sample.empty())
         throw InputError(fmt::format("--sample '{}': of --as bsdf alone", options_.sample));
+    if (is_bsdf_part(options_.as)) return add(bsdf_part(options_.as), options_.function);
     const General* any_map = general_named(options_.as);
     ours_ = any_map ? find_function(any_map->sampler) : registered(options_.as);
     if (!ours_) throw unknown(options_.as);

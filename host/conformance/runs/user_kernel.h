@@ -17,10 +17,11 @@ namespace vndf::conformance {
 struct UserOptions {
     std::string file;      // of OpenCL C
     std::string function;  // its name there; of a BSDF the value
-    std::string as;        // "ggx_sample_wm", a registered name with or without vndf_, or "bsdf"
-    std::string pdf;       // of a sampler and of a BSDF, the name of its density; or empty
-    std::string sample;    // of a BSDF, the name of its sampler; or empty
-    std::string options;   // for the compiler
+    std::string
+        as;  // "ggx_sample_wm", a registered name with or without vndf_, "bsdf", or one of bsdf_parts()
+    std::string pdf;      // of a sampler and of a BSDF, the name of its density; or empty
+    std::string sample;   // of a BSDF, the name of its sampler; or empty
+    std::string options;  // for the compiler
     Scope scope;
 };
 
@@ -40,7 +41,7 @@ class UserKernel {
     const Function* pdf() const;     // nullptr if there is none
     const Function* sample() const;  // of a BSDF
 
-    // The registered function to time or show beside it; nullptr for a BSDF.
+    // The registered function to time or show beside it; nullptr for a BSDF and its parts.
     const Function* ours() const { return ours_; }
 
     // A program with an entry point vndf_batch_NAME for each of functions(), after the text of the user. Built with the user's
@@ -72,5 +73,8 @@ class UserKernel {
 
 // What --as may be beside names of the registry.
 const std::vector<std::string>& general_names();
+
+// A function of a BSDF by itself, which can be evaluated, not judged: bsdf_value, bsdf_pdf, bsdf_sample.
+const std::vector<std::string>& bsdf_parts();
 
 }  // namespace vndf::conformance
