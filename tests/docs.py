@@ -198,6 +198,16 @@ def flags():
         yield (name, *cells)
 
 
+def divide():
+    """Software division: time of samplers in cache, and over that of the device's own, from one run."""
+    report, _ = bench()
+    run = report.Bench(ROOT / "bench/results/divide.json")
+    for sampler in run.samplers():
+        hardware, software = (run.ns(sampler, f"{form}/float", "cached") for form in ("strict", "strict_software_divide"))
+        if software:
+            yield f"`{sampler.removeprefix('vndf_')}`", ns(hardware), ns(software), f"{software / hardware:.1f}"
+
+
 def builds():
     report, run = bench()
     yield from report.build_rows(run)
@@ -362,6 +372,7 @@ TABLES = {
     "spread": lambda build: table(["mode", "two identical kernels differ by up to"], spread()),
     "layouts": lambda build: table(["sampler", "mode", "an array for each scalar", "times one", "structures", "distance as argument",
                                     "`float4`", "`vload3`"], layouts()),
+    "divide": lambda build: table(["sampler", "the device's division", "by software", "ratio"], divide()),
     "flags": lambda build: table(["sampler", *(name for _, name in bench()[0].FLAG_SETS)], flags()),
     "builds": lambda build: table(["program", "cold, s", "warm, s", "source, kB", "binary, kB"], builds()),
     "copies": lambda build: table(["copy", "ns"], copies()),
