@@ -145,15 +145,23 @@ struct Flushing {
 struct HostResults {
     Columns columns;
     std::vector<bool> exempt;
+    double moved = 0;  // the largest change of a result in exempt rows, over the largest of the row's results
     std::size_t exempt_count() const {
         return static_cast<std::size_t>(std::count(exempt.begin(), exempt.end(), true));
     }
 };
 
+// Of the results of a row, but a normal number.
+double largest(const Columns& results, std::size_t row) {
+    double most = std::numeric_limits<float>::min();
+    for (const std::vector<double>& column : results) most = std::max(most, std::abs(column[row]));
+    return most;
+}
+
 HostResults host_results(const Function& function, const Table& table, Real real,
                          const BitsOptions& options) {
     runtime::HostEvaluator host(options.math, real);
-    HostResults results{evaluate(host, function, table), std::vector<bool>(table.rows())};
+    HostResults results{evaluate(host, function, table), std::vector<bool>(table.rows()), 0};
     if (!options.flushes) return results;
     for (const unsigned mode : Flushing::modes) {
         Columns flushed;
@@ -163,7 +171,11 @@ HostResults host_results(const Function& function, const Table& table, Real real
         }
         for (std::size_t k = 0; k < flushed.size(); ++k)
             for (std::size_t i = 0; i < table.rows(); ++i)
-                if (!same_bits(flushed[k][i], results.columns[k][i])) results.exempt[i] = true;
+                if (!same_bits(flushed[k][i], results.columns[k][i])) {
+                    results.exempt[i] = true;
+                    const double change = std::abs(flushed[k][i] - results.columns[k][i]);
+                    results.moved = std::max(results.moved, change / largest(results.columns, i));
+                }
     }
     return results;
 }
@@ -240,6 +252,7 @@ std::vector<Digest> digests(runtime::Evaluator& evaluator, const std::vector<con
         if (options.flushes) {
             const HostResults host = host_results(*selected[at], table, real, options);
             digest.exempt = host.exempt_count();
+            digest.moved = host.moved;
             for (std::size_t k = 0; k < results.size(); ++k)
                 for (std::size_t i = 0; i < table.rows(); ++i)
                     if (host.exempt[i]) results[k][i] = host.columns[k][i];

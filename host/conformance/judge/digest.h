@@ -34,6 +34,8 @@ struct Digest {
     // -0 and 0 as different. In exempt rows the host build's results stand for the device's.
     std::uint64_t hash = 0;
     std::size_t exempt = 0;
+    // The largest change of a result in them, over the largest of the row's results.
+    double moved = 0;
 };
 
 // The digests of `selected`, in its order.
