@@ -28,4 +28,9 @@ struct DeviceError : Error {
     explicit DeviceError(const std::string& message) : Error(3, message) {}
 };
 
+// The compiler refused the source or the options; with its words.
+struct BuildError : DeviceError {
+    using DeviceError::DeviceError;
+};
+
 }  // namespace vndf

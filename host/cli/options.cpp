@@ -7,8 +7,8 @@ namespace vndf::cli {
 CLI::Option* add_device(CLI::App& command, std::string& device) {
     return command.add_option(
         "--device", device,
-        "first device whose platform or device name contains this\n(default: $CLVNDF_DEVICE, else "
-        "PoCL's CPU device, else the first device)");
+        "first device whose platform or device name contains this; with #N behind it the N-th of them\n"
+        "(default: $CLVNDF_DEVICE, else PoCL's CPU device, else the first device with a compiler)");
 }
 
 CLI::Option* add_only(CLI::App& command, std::string& pattern) {

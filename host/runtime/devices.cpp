@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -44,6 +45,9 @@ Device describe(const cl::Device& handle, const std::string& platform, const std
     d.fma = (single & CL_FP_FMA) != 0;
     d.denormals = (single & CL_FP_DENORM) != 0;
     d.correct_divide_sqrt = (single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    d.compiler = info<CL_DEVICE_COMPILER_AVAILABLE>(handle, cl_bool{CL_TRUE}) != CL_FALSE;
+    d.group_limit = info<CL_DEVICE_MAX_WORK_GROUP_SIZE>(handle, std::size_t{0});
+    d.address_bits = info<CL_DEVICE_ADDRESS_BITS>(handle, 0u);
     d.compute_units = info<CL_DEVICE_MAX_COMPUTE_UNITS>(handle, 0u);
     d.clock_mhz = info<CL_DEVICE_MAX_CLOCK_FREQUENCY>(handle, 0u);
     d.memory_bytes = info<CL_DEVICE_GLOBAL_MEM_SIZE>(handle, 0ull);
@@ -66,7 +70,40 @@ const Device& default_device(const std::vector<Device>& all) {
     const auto pocl = std::find_if(all.begin(), all.end(), [](const Device& d) {
         return d.platform == "Portable Computing Language" && (d.type & CL_DEVICE_TYPE_CPU) != 0;
     });
-    return pocl == all.end() ? all.front() : *pocl;
+    if (pocl != all.end()) return *pocl;
+    const auto builds = std::find_if(all.begin(), all.end(), [](const Device& d) { return d.compiler; });
+    return builds == all.end() ? all.front() : *builds;
+}
+
+// Of the devices whose platform or name contains `name`, or of `name`#N the N-th alone.
+struct Matches {
+    std::string name;
+    std::vector<const Device*> devices;
+};
+
+std::vector<const Device*> named(const std::vector<Device>& all, const std::string& name) {
+    std::vector<const Device*> devices;
+    for (const Device& d : all)
+        if (lower(d.platform).find(lower(name)) != std::string::npos ||
+            lower(d.name).find(lower(name)) != std::string::npos)
+            devices.push_back(&d);
+    return devices;
+}
+
+Matches matches_of(const std::vector<Device>& all, const std::string& wanted, const std::string& option) {
+    const std::size_t sign = wanted.rfind('#');
+    Matches whole{wanted, named(all, wanted)};
+    if (!whole.devices.empty() || sign == std::string::npos) return whole;
+    std::size_t number = 0;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [after, error] = std::from_chars(wanted.data() + sign + 1, end, number);
+    Matches part{wanted.substr(0, sign), named(all, wanted.substr(0, sign))};
+    if (error != std::errc() || after != end || part.devices.empty()) return whole;
+    if (number < 1 || number > part.devices.size())
+        throw InputError(fmt::format("{}: '{}': '{}' matches {} device{}; #1 is the first", option, wanted,
+                                     part.name, part.devices.size(), part.devices.size() == 1 ? "" : "s"));
+    part.devices = {part.devices[number - 1]};
+    return part;
 }
 
 }  // namespace
@@ -93,23 +130,27 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted) {
     if (all.empty()) throw DeviceError(no_device());
     if (wanted.empty()) return {default_device(all), {}};
 
-    std::vector<const Device*> matches;
-    std::string labels;
-    for (const Device& d : all) {
-        labels += (labels.empty() ? "'" : ", '") + d.label() + "'";
-        const bool match = lower(d.platform).find(lower(wanted)) != std::string::npos ||
-                           lower(d.name).find(lower(wanted)) != std::string::npos;
-        if (match) matches.push_back(&d);
-    }
+    const auto [name, matches] = matches_of(all, wanted, option);
     if (matches.empty()) {
+        std::string labels;
+        for (const Device& d : all) labels += (labels.empty() ? "'" : ", '") + d.label() + "'";
         if (const std::string why = why_without_device(wanted); !why.empty())
             throw DeviceError(fmt::format("{} '{}': {}", option, wanted, why));
         throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option,
                                      wanted, labels));
     }
     if (matches.size() == 1) return {*matches.front(), {}};
-    return {*matches.front(), fmt::format("{}: '{}' matches {} devices; taking '{}'", option, wanted,
-                                          matches.size(), matches.front()->label())};
+    return {*matches.front(),
+            fmt::format("{}: '{}' matches {} devices; taking '{}', the first ('{}#2' is the second)", option,
+                        wanted, matches.size(), matches.front()->label(), name)};
+}
+
+void require_compiler(const Device& device) {
+    if (device.compiler) return;
+    throw DeviceError(fmt::format(
+        "\"{}\" ({}) has no compiler (CL_DEVICE_COMPILER_AVAILABLE is false), and kernels are built from "
+        "their sources; --device picks another device",
+        device.name, device.platform_version));
 }
 
 void require_real(const Device& device, Real real) {

@@ -19,6 +19,9 @@ struct Device {
     bool fma = false;                  // float
     bool denormals = false;            // float
     bool correct_divide_sqrt = false;  // float: / and sqrt correctly rounded on request
+    bool compiler = true;              // for sources, which programs are built from
+    std::size_t group_limit = 0;       // work-items of a group, at most
+    unsigned address_bits = 0;
     unsigned compute_units = 0, clock_mhz = 0;
     unsigned long long memory_bytes = 0;
 
@@ -34,13 +37,16 @@ struct Choice {
     std::string note;  // if several devices matched: which one was taken, for stderr
 };
 
-// The first device whose platform or device name contains `wanted` (case does not matter). Nothing wanted:
-// the environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device. Throws InputError, listing
-// the devices there are; DeviceError, with the likely cause, if there are none, or only a platform of that name.
+// The first device whose platform or device name contains `wanted` (case does not matter), or of `wanted`#N the N-th. Nothing
+// wanted: the environment's CLVNDF_DEVICE, else PoCL's CPU device, else the first device with a compiler. Throws InputError,
+// listing the devices there are; DeviceError, with the likely cause, if there are none, or only a platform of that name.
 Choice choose_device(std::string wanted = {});
 Choice choose_device(const std::vector<Device>& all, std::string wanted);
 
 // Throws InputError if the device has no numbers of this type.
 void require_real(const Device& device, Real real);
+
+// Throws DeviceError if the device has no compiler.
+void require_compiler(const Device& device);
 
 }  // namespace vndf::runtime

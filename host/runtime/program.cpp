@@ -1,5 +1,7 @@
 #include "runtime/program.h"
 
+#include <numeric>
+
 namespace vndf::runtime {
 namespace {
 
@@ -26,7 +28,8 @@ Program::Program(const Device& device, Math math, Real real, const ProgramOption
     : device_(device), math_(math), real_(real), build_options_(all_options(device, math, real, options)) {
     require_real(device, real);
     require_policy(math, real);
-    guarded(fmt::format("use \"{}\"", device.name), [&] {
+    require_compiler(device);
+    guarded("make a context and a queue", [&] {
         context_ = cl::Context(device.handle);
         // With profiling for those who time their launches.
         queue_ = cl::CommandQueue(context_, device.handle, CL_QUEUE_PROFILING_ENABLE);
@@ -52,31 +55,40 @@ void Program::build(const ProgramOptions& options) {
     const std::string source =
         assemble(options.root, {options.functions, options.substitutions}, files) + options.more_source;
     source_bytes_ = source.size();
-    const auto refused = [&](cl_int error, const std::string& log) {
-        return DeviceError(fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}",
-                                       options.root, device_.name, device_.platform_version,
-                                       opencl_error_name(error), build_options_, indented(log)));
-    };
+    guarded("build " + options.root, [&] { program_ = cl::Program(context_, source); });
+    // Not by the bindings' build(), which throws that there is no log in place of what went wrong.
+    const cl_device_id device = device_.handle();
+    const cl_int status = clBuildProgram(program_(), 1, &device, build_options_.c_str(), nullptr, nullptr);
+    if (status == CL_SUCCESS) return;
+    const std::string message = fmt::format("cannot build {} on \"{}\" ({}): {}\n  options: {}\n  {}",
+                                            options.root, device_.name, device_.platform_version,
+                                            opencl_error_name(status), build_options_, indented(build_log()));
+    if (status == CL_BUILD_PROGRAM_FAILURE || status == CL_INVALID_BUILD_OPTIONS) throw BuildError(message);
+    throw DeviceError(message);
+}
+
+std::string Program::build_log() const {
     try {
-        program_ = cl::Program(context_, source);
-        program_.build({device_.handle}, build_options_.c_str());
-    } catch (const cl::BuildError& error) {
-        std::string log;
-        for (const auto& [_, text] : error.getBuildLog()) log += text;
-        throw refused(error.err(), log);
-    } catch (const cl::Error& error) {
-        throw refused(error.err(), fmt::format("{} failed", error.what()));
+        return program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.handle);
+    } catch (const cl::Error&) {
+        return "the driver says no more";
     }
 }
 
+cl::Kernel Program::kernel(const std::string& name) const {
+    return guarded("find the kernel " + name, [&] { return cl::Kernel(program_, name.c_str()); });
+}
+
 std::size_t Program::binary_bytes() const {
-    std::size_t bytes = 0;
-    for (const std::size_t size : program_.getInfo<CL_PROGRAM_BINARY_SIZES>()) bytes += size;
-    return bytes;
+    return guarded("measure the program", [&] {
+        const auto sizes = program_.getInfo<CL_PROGRAM_BINARY_SIZES>();
+        return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+    });
 }
 
 bool Program::has_kernel(const std::string& name) const {
-    const std::string names = ';' + program_.getInfo<CL_PROGRAM_KERNEL_NAMES>() + ';';
+    const std::string names =
+        ';' + guarded("list kernels", [&] { return program_.getInfo<CL_PROGRAM_KERNEL_NAMES>(); }) + ';';
     return names.find(';' + name + ';') != names.npos;
 }
 

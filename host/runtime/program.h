@@ -36,7 +36,8 @@ struct ProgramOptions {
 class Program {
   public:
     // Builds it, in a context of its own. Throws InputError if the device lacks fp64 and double is asked for, or the
-    // policy is for float only; DeviceError with the build log if the build fails.
+    // policy is for float only; BuildError with the build log if the compiler refuses the source or the options; DeviceError for
+    // whatever else fails.
     Program(const Device& device, Math math, Real real, const ProgramOptions& options = {});
     // On the device of another program, in its context and its queue.
     Program(const Program& beside, Math math, Real real, const ProgramOptions& options = {});
@@ -48,7 +49,7 @@ class Program {
     const cl::Context& context() const { return context_; }
     const cl::CommandQueue& queue() const { return queue_; }
 
-    cl::Kernel kernel(const std::string& name) const { return cl::Kernel(program_, name.c_str()); }
+    cl::Kernel kernel(const std::string& name) const;
     // Of the source as the compiler gets it, and of what the driver made of it.
     std::size_t source_bytes() const { return source_bytes_; }
     std::size_t binary_bytes() const;
@@ -71,6 +72,7 @@ class Program {
 
   private:
     void build(const ProgramOptions& options);
+    std::string build_log() const;
     DeviceError failure(const std::string& deed, const cl::Error& error) const;
 
     Device device_;

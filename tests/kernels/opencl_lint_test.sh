@@ -12,7 +12,7 @@ for candidate in clang clang-19 clang-18 clang-17 clang-16 clang-15 clang-14; do
 done
 [ -n "$clang" ] || { echo "no clang" && exit 77; }
 
-for target in spir64 amdgcn nvptx64; do
+for target in spir spir64 amdgcn nvptx64; do  # spir: addresses of 32 bits
     for standard in CL1.2 CL3.0; do
         for real in float double; do
             for math in strict builtin native; do

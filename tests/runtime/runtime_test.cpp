@@ -201,7 +201,18 @@ TEST_CASE(
     CHECK(choose_device(all, "portable").device.name == "gpu-two");
     CHECK_THAT(choose_device(all, "portable").note,
                ContainsSubstring("2 devices") && ContainsSubstring("Portable Computing Language / gpu-two"));
+    CHECK(choose_device(all, "portable#2").device.name == "pthread-three");
+    CHECK(choose_device(all, "portable#2").note.empty());
+    CHECK(choose_device(all, "#2").device.name == "gpu-two");
+    CHECK(choose_device({all[0], fake("Acme", "gpu #1", CL_DEVICE_TYPE_GPU)}, "gpu #1").device.name ==
+          "gpu #1");
+    for (const char* beyond : {"portable#3", "portable#0", "acme#99999999999999999999"})
+        CHECK_THROWS_AS(choose_device(all, beyond), InputError);
+    CHECK_THROWS_WITH(choose_device(all, "portable#3"), ContainsSubstring("'portable' matches 2 devices"));
     CHECK(choose_device(all, "").device.name == "pthread-three");
+    Device library = all[0];
+    library.compiler = false;
+    CHECK(choose_device({library, all[1]}, "").device.name == "gpu-two");
     CHECK(choose_device({all[0]}, "").device.name == "gpu-one");
 
     setenv("CLVNDF_DEVICE", "gpu-two", 1);

@@ -1,5 +1,4 @@
 // The command where something that it needs is short or shut.
-#include <algorithm>
 #include <string>
 
 #include "support/catch.h"
@@ -11,18 +10,6 @@ using namespace vndf;
 using Catch::Matchers::ContainsSubstring;
 
 const std::string header = "w_x,w_y,w_z,alpha_x,alpha_y\n";
-
-// `clvndf arguments` with `input`, by a shell that runs `before` first; status 124 after 30 seconds.
-Outcome clvndf_after(const std::string& before, const std::string& arguments, const std::string& input = {}) {
-    const Folder folder;
-    folder.write("in", input);
-    const int status = shell(folder, before + "\ntimeout 30 \"$clvndf\" " + arguments + " <in >out 2>err");
-    return {status, folder.read("out"), folder.read("err")};
-}
-
-bool one_line(const std::string& text) {
-    return std::count(text.begin(), text.end(), '\n') == 1;
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -61,6 +62,19 @@ inline Outcome clvndf(const std::string& arguments, const std::string& input = {
     folder.write("in", input);
     const int status = shell(folder, "\"$clvndf\" " + arguments + " <in >out 2>err");
     return {status, folder.read("out"), folder.read("err")};
+}
+
+// The same in a shell that runs `before` first; status 124 after two minutes.
+inline Outcome clvndf_after(const std::string& before, const std::string& arguments,
+                            const std::string& input = {}) {
+    const Folder folder;
+    folder.write("in", input);
+    const int status = shell(folder, before + "\ntimeout 120 \"$clvndf\" " + arguments + " <in >out 2>err");
+    return {status, folder.read("out"), folder.read("err")};
+}
+
+inline bool one_line(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n') == 1;
 }
 
 }  // namespace vndf

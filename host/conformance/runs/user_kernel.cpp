@@ -285,7 +285,7 @@ std::optional<runtime::DeviceEvaluator> UserKernel::in_double(const runtime::Dev
     try {
         return runtime::DeviceEvaluator(device, runtime::Math::strict, runtime::Real::f64,
                                         program_of(files, runtime::Real::f64));
-    } catch (const DeviceError&) {
+    } catch (const BuildError&) {
         return std::nullopt;
     }
 }
@@ -296,13 +296,13 @@ runtime::DeviceEvaluator UserKernel::evaluator(const runtime::Device& device, ru
         try {
             runtime::Program(device, runtime::Math::strict, real, options);
             return {};
-        } catch (const DeviceError& error) {
+        } catch (const BuildError& error) {
             return error.what();
         }
     };
     try {
         return runtime::DeviceEvaluator(device, runtime::Math::strict, real, whole);
-    } catch (const DeviceError&) {
+    } catch (const BuildError&) {
         runtime::ProgramOptions alone = whole;
         alone.more_source.clear();
         // Whether it is the user's text that does not compile, or the calls of it.
