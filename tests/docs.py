@@ -345,10 +345,11 @@ def caps():
 
     def gain(row, shading):
         won = min(price(row, way, shading) for way in others) / price(row, "cones", shading)
-        return f"{won:.2g}" if won < 1000 else "> 1000"
+        return "> 1000" if won > 1000 else f"{won:.0f}" if won > 10 else f"{won:.2g}"
     lights = {}
     for row in measured["rows"]:
-        lights.setdefault((*row["alpha"], row["beta"], row["off"]), []).append(row)
+        if row["off"] <= 15:
+            lights.setdefault((*row["alpha"], row["beta"], row["off"]), []).append(row)
     for (alpha_x, alpha_y, beta, off), rows in lights.items():
         noise = [", ".join(f"{variance ** 0.5:.2g}" for variance in variances) for variances in
                  ([row["cones"]["variance"] for row in rows], [min(row[way]["variance"] for way in others) for row in rows])]
