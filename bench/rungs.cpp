@@ -60,6 +60,17 @@ void add_basis(const Function& function, std::vector<Rung>& all) {
                    .same_map = false});
 }
 
+// What the sampler of reflections into a cap competes with where a light fills it (bench/caps.py).
+void add_caps(const Function& function, std::vector<Rung>& all) {
+    if (function.name != "vndf_ggx_sample_wi_cone2026_with_pdf") return;
+    for (const char* name : {"evenly", "both"})
+        all.push_back({.name = name,
+                       .modes = memory_and_one_lobe,
+                       .callee = fmt::format("vndf_bench_cap_{}", name),
+                       .root = fmt::format("bench/cap_{}.cl", name),
+                       .same_map = false});
+}
+
 void add_listings(const Function& function, std::vector<Rung>& all) {
     if (!is_published(function)) return;
     const std::string name = function.name.substr(5);  // without vndf_
@@ -166,6 +177,7 @@ std::vector<Rung> rungs(const Function& function, const runtime::Device& device)
                        .flags = "-cl-fp32-correctly-rounded-divide-sqrt -DVNDF_SOFTWARE_DIVIDE=1"});
     add_listings(function, all);
     add_basis(function, all);
+    add_caps(function, all);
     add_layouts(function, all);
     if (is_plain_sampler(function))
         for (const runtime::FlagSet& set : runtime::distinct(runtime::renderer_flags()))

@@ -28,6 +28,7 @@ INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
+CAPS = ROOT / "bench/results/caps.json"
 REFRACTION = ROOT / "bench/results/refraction.json"
 MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
@@ -343,6 +344,34 @@ def refraction():
                    *(", ".join(f"{row[light][way]:.2g}" for way in ("after", "before", "cone")) for light in ("white", "smooth")))
 
 
+def caps():
+    """Of each light, for the angles of wo: the noise of one sample of cones and of the best other way, and what cones win in the
+    same time where a sample that brings light costs `shading` nanoseconds more."""
+    measured = json.loads(CAPS.read_text("utf-8"))
+    others = ("even", "conic", "both")
+
+    def price(row, way, shading):
+        return row[way]["variance"] * (measured["ns"][way] + shading * row[way]["kept"])
+
+    def gain(row, shading):
+        won = min(price(row, way, shading) for way in others) / price(row, "cones", shading)
+        return "> 1000" if won > 1000 else f"{won:.0f}" if won > 10 else f"{won:.2g}"
+    lights = {}
+    for row in measured["rows"]:
+        if row["off"] <= 15:
+            lights.setdefault((*row["alpha"], row["beta"], row["off"]), []).append(row)
+    for (alpha_x, alpha_y, beta, off), rows in lights.items():
+        noise = [", ".join(f"{variance ** 0.5:.2g}" for variance in variances) for variances in
+                 ([row["cones"]["variance"] for row in rows], [min(row[way]["variance"] for way in others) for row in rows])]
+        yield (f"{alpha_x:g}, {alpha_y:g}", f"{beta}°", f"{off}°", *noise,
+               *(", ".join(gain(row, shading) for row in rows) for shading in (0, 100)))
+
+
+def cap_times():
+    measured = json.loads(CAPS.read_text("utf-8"))
+    return table(list(measured["ns"]), [[f"{ns:.3g} ns" for ns in measured["ns"].values()]])
+
+
 def power():
     measured = json.loads(POWER.read_text("utf-8"))
     runs = [f"{name}: {run['lobes']} lobes of {run['samples']:,} samples" for name, run in
@@ -387,6 +416,9 @@ TABLES = {
     "power": lambda build: power(),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),
+    "cap_times": lambda build: cap_times(),
+    "caps": lambda build: table(["αx, αy", "β", "off", "cones, std. dev.", "best other", "gain, shading free", "gain, 100 ns"],
+                                caps()),
     "peer_densities": lambda build: peer_errors(peer_densities),
     "gains": lambda build: table(["αx, αy; cos θ 0.9, 0.5, 0.2", "lost by the bounded cap", "white light", "smooth light",
                                   "small light", "smooth light, Sobol"], gains()),

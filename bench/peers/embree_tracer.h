@@ -35,8 +35,8 @@ inline void embree_path(RTCScene scene, const Tables& t, uint pixel, unsigned ma
         // Without textures, and with no light but the sky: nothing is read of what they have.
         vndf_render_surface(t.sizes, t.vertices, t.triangles, nullptr, nullptr, nullptr, hit, &triangle, 1, 1,
                             path, surface, &material);
-        vndf_render_lights(t.sky, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, t.sizes,
-                           t.vertices, t.triangles, nullptr, nullptr, nullptr, t.materials, t.words,
+        vndf_render_lights(t.sky, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                           t.sizes, t.vertices, t.triangles, nullptr, nullptr, nullptr, t.materials, t.words,
                            VNDF_QUAD_LIGHT + quad, 0, &slot, pixel, surface, path, 1, to);
         vndf_render_connect(t.sizes, t.materials, &material, nullptr, surface, path, 1, to);
         const float* const arriving = to + VNDF_LIGHT_RED;

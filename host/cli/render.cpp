@@ -176,6 +176,7 @@ render::Settings settings_of(const Render& r, const Common& common, const render
     set_size(r.size, settings);
     settings.max_bounces = render::useful_bounces(scene, r.max_bounces);
     settings.seed = common.seed;
+    settings.samples_caps = r.choices.lights_by != "bsdf";
     settings.random = r.choices.random == "philox" ? render::Random::philox : render::Random::sobol;
     return settings;
 }
@@ -322,6 +323,11 @@ void add_render(CLI::App& app, Common& common) {
     choice("--energy", r->choices.energy,
            "what scatters between facets: none (it is lost), turquin or kulla_conty",
            {"none", "turquin", "kulla_conty"});
+    choice("--lights-by", r->choices.lights_by,
+           "how spheres and the sun are sampled: mis, evenly in the cap that they fill and by materials, "
+           "weighed;\n"
+           "cap or bsdf alone; or cones: of GGX facets all their reflections into it and no other",
+           render::lights_by());
     choice("--random", r->choices.random, "random numbers: sobol, scrambled after Owen, or philox",
            {"sobol", "philox"});
     choice("--math", r->math, "policy of elementary functions: strict, builtin or native",
@@ -345,6 +351,9 @@ void add_render(CLI::App& app, Common& common) {
                   ->check(CLI::IsMember(render::orb_kinds()))
                   ->capture_default_str();
     command->add_option("--camera", r->scene.camera, "of the file: a name or a number; the first without it");
+    add_number(*command, "--light-radius", r->scene.light_radius, 1e-6f, 1e6f,
+               "of the file's point and spot lights, which are spheres then; without a file, of lights over "
+               "the orbs");
     CLI::Option* const sky =
         choice("--sky", r->scene.sky,
                "day: blue, with a sun; none: dark; to compare with others, white: as bright everywhere, and "

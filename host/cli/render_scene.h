@@ -16,6 +16,7 @@ struct SceneOptions {
     std::string sky = "auto";        // day, white, sunlit, none; auto: day where nothing else shines
     std::string environment;         // an image
     float rotation = 0;              // of it, degrees
+    float light_radius = 0;          // of point and spot lights; > 0: they are spheres, and orbs have some
 };
 
 struct ShownScene {

@@ -33,6 +33,7 @@ std::string fingerprint(const Scene& scene, const Settings& settings, std::strin
     add(texture_table(scene));
     add(texel_table(scene));
     add(point_table(scene));
+    add(sphere_table(scene));
     add(scene.environment.radiance);
     return fmt::format("{} x {}, {} surfaces, seed {}, program {:016x}, scene {:016x}", settings.width,
                        settings.height, settings.max_bounces, settings.seed, fnv1a(program), hash);

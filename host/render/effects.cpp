@@ -182,6 +182,11 @@ std::string shining(const Surveyed& s) {
     return materials_that(s, [](const Material& m) { return m.emission != Vec{}; });
 }
 
+std::string lights_that(const Surveyed& s, const std::function<bool(const PunctualLight&)>& call) {
+    const auto count = std::count_if(s.scene.lights.begin(), s.scene.lights.end(), call);
+    return count == 0 ? std::string() : fmt::format("{} lights", count);
+}
+
 // What calls for each effect. One that is not here is always called for.
 const std::map<std::string, std::function<std::string(const Surveyed&)>>& callers() {
     static const std::map<std::string, std::function<std::string(const Surveyed&)>> all{
@@ -262,8 +267,10 @@ const std::map<std::string, std::function<std::string(const Surveyed&)>>& caller
         {"lamp", shining},
         {"point_light",
          [](const Surveyed& s) {
-             return s.scene.lights.empty() ? std::string() : fmt::format("{} lights", s.scene.lights.size());
+             return lights_that(s, [](const PunctualLight& l) { return !l.sphere(); });
          }},
+        {"sphere_light",
+         [](const Surveyed& s) { return lights_that(s, [](const PunctualLight& l) { return l.sphere(); }); }},
         {"sun", [](const Surveyed& s) { return std::string(s.scene.sky.sun_share > 0 ? "the sun" : ""); }},
         {"sky",
          [](const Surveyed& s) {
@@ -304,13 +311,18 @@ std::vector<Effect> called_effects(const Scene& scene) {
 // pass what is not opaque; lights that are near.
 bool of_paths(const std::string& effect, bool alpha) {
     return effect == "absorption" || effect == "alpha" || effect == "lamp" || effect == "point_light" ||
-           (alpha && (effect == "texture" || effect == "vertex_colour"));
+           effect == "sphere_light" || (alpha && (effect == "texture" || effect == "vertex_colour"));
 }
 
 }  // namespace
 
 const std::vector<std::string>& samplers() {
     static const std::vector<std::string> all{"bounded", "plain", "conic", "ndf", "cosine"};
+    return all;
+}
+
+const std::vector<std::string>& lights_by() {
+    static const std::vector<std::string> all{"mis", "cap", "bsdf", "cones"};
     return all;
 }
 
@@ -361,10 +373,13 @@ Switches switches(const Scene& scene, const std::vector<Effect>& effects, const 
     if (compared && std::any_of(scene.materials.begin(), scene.materials.end(), transmits))
         throw InputError(fmt::format(
             "--sampler {}: draws no light through a surface, and a material transmits it", choices.sampler));
+    if (choices.lights_by == "cones" && choices.ndf != "ggx")
+        throw InputError(fmt::format("--lights-by cones: --ndf {} has none, ggx alone has", choices.ndf));
     std::string text = fmt::format("-DVNDF_NDF={} -DVNDF_FRESNEL={} -DVNDF_MASKING={}", choices.ndf,
                                    scene.fresnel, choices.masking);
     text += " -DVNDF_RANDOM=" + choices.random;
     if (choices.energy != "none") text += " -DVNDF_ENERGY=" + choices.energy;
+    if (choices.lights_by != "mis") text += " -DVNDF_LIGHTS_BY=" + choices.lights_by;
     text += compared ? " -DVNDF_SAMPLING=plain -DVNDF_DRAW=" + choices.sampler
                      : " -DVNDF_SAMPLING=" + choices.sampler;
     std::string paths = "-DVNDF_RANDOM=" + choices.random;

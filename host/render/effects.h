@@ -19,11 +19,15 @@ struct Effect {
 
 // Of the models that results depend on, one each.
 struct Choices {
-    std::string ndf = "ggx", sampler = "bounded", masking = "correlated", energy = "none", random = "sobol";
+    std::string ndf = "ggx", sampler = "bounded", masking = "correlated", energy = "none", random = "sobol",
+                lights_by = "mis";
 };
 
 // How directions are drawn: the samplers of kernels/vndf/bsdf_facets.h, and two to compare with (kernels/render/material.h).
 const std::vector<std::string>& samplers();
+
+// How lights that fill a cap of directions are sampled: VNDF_LIGHTS_BY (kernels/render/effects.h).
+const std::vector<std::string>& lights_by();
 
 // Each effect, on or off. asked: "auto", what the scene calls for; "all"; or names with commas between them, and light
 // from all around as the scene has it.

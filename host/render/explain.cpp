@@ -45,7 +45,7 @@ class Rendering {
     }
     double shading() const {
         double sum = 0;
-        for (const char* stage : {"surface", "dress", "lights", "connect", "scatter"})
+        for (const char* stage : {"surface", "dress", "lights", "cones", "connect", "scatter"})
             sum += stages_->seconds(stage);
         return sum;
     }
@@ -151,8 +151,9 @@ std::string explanation(const Explained& what) {
         what, fmt::format("{:<18}{:<46}{:<34}{}\n", "effect", "called for by", "switch", "cost of shading"),
         row);
     return text +
-           fmt::format("choices: ndf {}, sampler {}, fresnel {}, masking {}, energy {}\n", what.choices.ndf,
-                       what.choices.sampler, what.scene.fresnel, what.choices.masking, what.choices.energy) +
+           fmt::format("choices: ndf {}, sampler {}, fresnel {}, masking {}, energy {}, lights by {}\n",
+                       what.choices.ndf, what.choices.sampler, what.scene.fresnel, what.choices.masking,
+                       what.choices.energy, what.choices.lights_by) +
            simplifications;
 }
 

@@ -191,6 +191,19 @@ Scene orbs(std::string_view kind) {
     return scene;
 }
 
+void add_lights_over_orbs(Scene& scene) {
+    const std::array<Vec, 4> colours{
+        {{1, 0.5f, 0.2f}, {1, 0.85f, 0.65f}, {0.65f, 0.85f, 1}, {0.3f, 0.5f, 1}}};
+    for (int i = 0; i < 4; ++i) {
+        PunctualLight light;
+        light.colour = colours[i];
+        light.intensity =
+            static_cast<float>(4 / luminance(light.colour[0], light.colour[1], light.colour[2]));
+        light.place = {2.3f * (static_cast<float>(i) - 1.5f), 2.7f, 1.4f};
+        scene.lights.push_back(light);
+    }
+}
+
 vndf_render_view view_of(const Camera& camera, unsigned width, unsigned height) {
     const auto wide = [](const Vec& v) { return Vec3{v[0], v[1], v[2]}; };
     const Vec3 eye = wide(camera.eye), target = wide(camera.target);

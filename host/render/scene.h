@@ -70,7 +70,8 @@ struct Dressing {
     std::array<TextureUse, slot_count> textures;
 };
 
-// KHR_lights_punctual: candela, lux for a directional one. Colour linear.
+// KHR_lights_punctual: candela, lux for a directional one. Colour linear. A point or spot light with a radius is a sphere
+// (kernels/render/spheres.h).
 struct PunctualLight {
     enum class Kind : std::uint32_t { point, spot, directional };
     Kind kind = Kind::point;
@@ -78,6 +79,9 @@ struct PunctualLight {
     float intensity = 1;
     Vec place{}, direction{0, 0, -1};  // that it shines in
     float inner_angle = 0, outer_angle = 0.785398163f;
+    float radius = 0;
+
+    bool sphere() const { return radius > 0 && kind != Kind::directional; }
 };
 
 struct Camera {
@@ -125,6 +129,8 @@ Sky day_sky();
 // Five orbs on a floor under a sky with a sun; `kind` is one of orb_kinds().
 Scene orbs(std::string_view kind);
 const std::vector<std::string>& orb_kinds();
+// Four point lights over them, equally bright: a sample that takes one of four takes each as often.
+void add_lights_over_orbs(Scene& scene);
 
 // The camera as the kernels take it.
 vndf_render_view view_of(const Camera& camera, unsigned width, unsigned height);

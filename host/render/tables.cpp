@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kernels/render/texture.h"
 
@@ -78,6 +79,37 @@ float cutoff_of(const GltfMaterial& m) {
 
 bool shines(const Vec& rgb) {
     return rgb != Vec{};
+}
+
+std::vector<PunctualLight> lights_that(const Scene& scene, bool are_spheres) {
+    std::vector<PunctualLight> lights;
+    for (const PunctualLight& l : scene.lights)
+        if (l.sphere() == are_spheres) lights.push_back(l);
+    return lights;
+}
+
+std::vector<double> intensities(const std::vector<PunctualLight>& lights) {
+    std::vector<double> all;
+    for (const PunctualLight& l : lights)
+        all.push_back(l.intensity * luminance(l.colour[0], l.colour[1], l.colour[2]));
+    return all;
+}
+
+// Row i of points or spheres, which differ in one plane; the light is its candela times `scale`.
+std::vector<float> light_row(const PunctualLight& l, const Alias& alias, std::size_t i, float own,
+                             double scale) {
+    const bool spot = l.kind == PunctualLight::Kind::spot;
+    const double inner = std::cos(l.inner_angle), outer = std::cos(l.outer_angle);
+    const double slope = spot ? 1 / std::max(1e-3, inner - outer) : 0, offset = spot ? -outer * slope : 1;
+    std::vector<float> row{alias.keep[i], static_cast<float>(alias.other[i]), own};
+    row.insert(row.end(), l.place.begin(), l.place.end());
+    row.insert(row.end(), l.direction.begin(), l.direction.end());
+    // No more than numbers hold of the smallest spheres.
+    for (const float c : l.colour)
+        row.push_back(static_cast<float>(std::min(static_cast<double>(c * l.intensity) * scale, 1e30)));
+    row.insert(row.end(),
+               {static_cast<float>(slope), static_cast<float>(offset), static_cast<float>(alias.chance[i])});
+    return row;
 }
 
 }  // namespace
@@ -195,38 +227,38 @@ Lamps lamps_of(const Scene& scene) {
 }
 
 std::vector<float> point_table(const Scene& scene) {
-    const std::vector<PunctualLight>& lights = scene.lights;
+    const std::vector<PunctualLight> lights = lights_that(scene, false);
     if (lights.empty()) return {};
-    std::vector<double> weights;
-    for (const PunctualLight& l : lights)
-        weights.push_back(l.intensity * luminance(l.colour[0], l.colour[1], l.colour[2]));
-    const Alias alias = alias_of(weights);
+    const Alias alias = alias_of(intensities(lights));
     std::size_t i = 0;
     return planes_of<float>(VNDF_POINT_PLANES, lights, [&](const PunctualLight& l) {
-        const bool spot = l.kind == PunctualLight::Kind::spot;
-        const double inner = std::cos(l.inner_angle), outer = std::cos(l.outer_angle);
-        const double slope = spot ? 1 / std::max(1e-3, inner - outer) : 0, offset = spot ? -outer * slope : 1;
-        std::vector<float> row{alias.keep[i], static_cast<float>(alias.other[i]),
-                               l.kind == PunctualLight::Kind::directional ? 1.0f : 0.0f};
-        row.insert(row.end(), l.place.begin(), l.place.end());
-        row.insert(row.end(), l.direction.begin(), l.direction.end());
-        for (const float c : l.colour) row.push_back(c * l.intensity);
-        row.insert(row.end(), {static_cast<float>(slope), static_cast<float>(offset),
-                               static_cast<float>(alias.chance[i])});
-        ++i;
-        return row;
+        return light_row(l, alias, i++, l.kind == PunctualLight::Kind::directional ? 1.0f : 0.0f, 1);
     });
 }
 
-vndf_render_sky sky_of(const Scene& scene, const Lamps& lamps) {
+std::vector<float> sphere_table(const Scene& scene) {
+    const std::vector<PunctualLight> lights = lights_that(scene, true);
+    if (lights.empty()) return {};
+    const Alias alias = alias_of(intensities(lights));
+    std::size_t i = 0;
+    return planes_of<float>(VNDF_SPHERE_PLANES, lights, [&](const PunctualLight& l) {
+        const double radius = l.radius;
+        return light_row(l, alias, i++, l.radius, 1 / (std::numbers::pi * radius * radius));
+    });
+}
+
+vndf_render_sky sky_of(const Scene& scene, const Lamps& lamps, bool samples_caps) {
     const Sky& sky = scene.sky;
     // 1 - cos(radius) without cancellation.
     const double half = std::sin(sky.sun_radius / 2.0);
     const bool sun = sky.sun_share > 0, around = scene.environment.side > 0;
     const bool bright = sun || around || shines(sky.zenith) || shines(sky.horizon) || shines(sky.ground);
-    const bool points = !scene.lights.empty();
-    const float kinds = static_cast<float>(bright) + (lamps.count > 0) + points;
+    const auto all = static_cast<std::uint32_t>(scene.lights.size()),
+               spheres = static_cast<std::uint32_t>(lights_that(scene, true).size()), points = all - spheres;
+    const bool to_spheres = samples_caps && spheres > 0;
+    const float kinds = static_cast<float>(bright) + (lamps.count > 0) + (points > 0) + to_spheres;
     const float share = 1 / std::max(kinds, 1.0f), far = bright || kinds == 0 ? share : 0;
+    const float sun_share = samples_caps ? sky.sun_share : 0;
     const Vec none{};
     const Vec& light = sun ? sky.sun : none;
     return {sky.zenith[0],
@@ -245,13 +277,15 @@ vndf_render_sky sky_of(const Scene& scene, const Lamps& lamps) {
             sky.to_sun[1],
             sky.to_sun[2],
             static_cast<float>(2 * half * half),
-            far * sky.sun_share,
-            far * (1 - sky.sun_share),
+            far * sun_share,
+            far * (1 - sun_share),
             lamps.count > 0 ? share : 0,
-            points ? share : 0,
+            points > 0 ? share : 0,
+            to_spheres ? share : 0,
             scene.environment.side,
             lamps.count,
-            static_cast<std::uint32_t>(scene.lights.size())};
+            points,
+            spheres};
 }
 
 }  // namespace vndf::render

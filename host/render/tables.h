@@ -25,9 +25,11 @@ struct Lamps {
     std::vector<float> densities;
 };
 Lamps lamps_of(const Scene& scene);
+// Of lights without a radius, and of those that are spheres.
 std::vector<float> point_table(const Scene& scene);
+std::vector<float> sphere_table(const Scene& scene);
 
-// Each kind of light that there is gets as many samples as every other.
-vndf_render_sky sky_of(const Scene& scene, const Lamps& lamps);
+// Each kind of light that there is gets as many samples as every other; spheres and the sun none if they are left to be met by chance.
+vndf_render_sky sky_of(const Scene& scene, const Lamps& lamps, bool samples_caps = true);
 
 }  // namespace vndf::render

@@ -49,6 +49,8 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       media_(stages.has("media")),
       dressed_(stages.has("dress")),
       shines_(stages.has("glow")),
+      balls_(stages.has("spheres")),
+      cones_(stages.has("cones")),
       lamp_table_(lamps_of(scene)),
       words_(settings.random, settings.seed, static_cast<unsigned>(quads(settings))),
       nodes_(stages.upload(tree.nodes)),
@@ -62,8 +64,9 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
       lamps_(stages.upload(lamp_table_.planes)),
       lamp_numbers_(stages.upload(lamp_table_.numbers)),
       lamp_densities_(stages.upload(lamp_table_.densities)),
-      points_(stages.upload(point_table(scene))) {
-    sky_ = sky_of(scene, lamp_table_);
+      points_(stages.upload(point_table(scene))),
+      spheres_(stages.upload(sphere_table(scene))) {
+    sky_ = sky_of(scene, lamp_table_, settings.samples_caps);
     const Environment& e = scene.environment.side > 0 ? scene.environment : no_environment();
     around_ = stages.upload(e.radiance);
     around_pdf_ = stages.upload(e.pdf);
@@ -75,10 +78,10 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     for (int side = 0; side < 2; ++side) {
         path_[side] = planes(VNDF_PATH_PLANES);
         slot_[side] = planes(1);
-        hit_[side] = planes(VNDF_HIT_PLANES);
+        hit_[side] = planes(VNDF_HIT_PLANES + balls_);
         triangle_[side] = planes(1);
     }
-    lights_ = planes(VNDF_LIGHT_PLANES);
+    lights_ = planes(VNDF_LIGHT_PLANES + cones_);
     surface_ = planes(VNDF_SURFACE_PLANES);
     material_ = planes(1);
     look_ = planes(dressed_ ? VNDF_LOOK_PLANES : 0);
@@ -120,6 +123,10 @@ void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
         const std::uint32_t light_quad = VNDF_QUAD_LIGHT + VNDF_QUAD_BOUNCE * bounce;
         // Behind the last bounce there are no random numbers, and no use for one.
         const std::uint32_t channel_quad = bounce == settings_.max_bounces ? 0 : light_quad;
+        for (std::uint32_t row = 0; balls_ && row < sky_.spheres; ++row)
+            stages_.launch(
+                "spheres", count,
+                {&sky_, spheres_, row, &sizes_, materials_, hit_[0], path, slot, count, stride_, light_});
         if (media_)
             stages_.launch("media", count,
                            {&sizes_, vertices_, triangles_, materials_, hit_[0], triangle_[0], word_buffer_,
@@ -169,11 +176,15 @@ void Wavefront::turn(std::uint32_t first, std::uint32_t count, unsigned bounce, 
     if (bounce == settings_.max_bounces) return;
     const std::uint32_t pick_quad = VNDF_QUAD_PICK(settings_.max_bounces) + bounce,
                         shadow_salt = salt(bounce, true);
-    stages_.launch("lights", count,
-                   {&sky_,         around_, around_pdf_, around_keep_, around_other_, lamps_,
-                    lamp_numbers_, points_, &sizes_,     vertices_,    triangles_,    dressings_,
-                    textures_,     texels_, materials_,  word_buffer_, light_quad,    pick_quad,
-                    slot,          first,   surface_,    path,         stride_,       lights_});
+    stages_.launch("lights", count, {&sky_,      around_,       around_pdf_, around_keep_, around_other_,
+                                     lamps_,     lamp_numbers_, points_,     spheres_,     &sizes_,
+                                     vertices_,  triangles_,    dressings_,  textures_,    texels_,
+                                     materials_, word_buffer_,  light_quad,  pick_quad,    slot,
+                                     first,      surface_,      path,        stride_,      lights_});
+    if (cones_)
+        stages_.launch("cones", count,
+                       {&sizes_, materials_, material_, look_, surface_, path, word_buffer_, light_quad,
+                        pick_quad, slot, first, stride_, lights_});
     stages_.launch("connect", count,
                    {&sizes_, materials_, material_, look_, surface_, path, stride_, lights_});
     stages_.launch("shadow", count,

@@ -21,6 +21,7 @@ struct Settings {
     std::uint64_t seed = 1;
     Random random = Random::sobol;
     std::size_t queue = std::size_t{1} << 16;  // paths in flight
+    bool samples_caps = true;                  // lights that fill a cap; not so with Choices::lights_by bsdf
 };
 
 struct Image {
@@ -71,7 +72,7 @@ class Wavefront {
     vndf_render_view view_;
     vndf_render_sky sky_;
     vndf_render_sizes sizes_;
-    bool media_, dressed_, shines_;  // whether the program has these stages
+    bool media_, dressed_, shines_, balls_, cones_;  // whether the program has these stages
     Lamps lamp_table_;
     Words words_;
     Memory memory_;
@@ -79,7 +80,7 @@ class Wavefront {
     std::uint32_t ahead_ = 0;  // pixels that have one sample more
     Stages::Buffer nodes_, leaves_, vertices_, triangles_, materials_, dressings_, textures_, texels_;
     Stages::Buffer around_, around_pdf_, around_keep_, around_other_, lamps_, lamp_numbers_, lamp_densities_,
-        points_, word_buffer_;
+        points_, spheres_, word_buffer_;
     Stages::Buffer path_[2], slot_[2], hit_[2], triangle_[2], lights_, surface_, material_, look_, from_,
         offset_, light_, film_;
 };

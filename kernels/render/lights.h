@@ -1,8 +1,9 @@
 // Stages: directions towards the lights, and the light of the paths that leave the scene.
 //
 // A sample goes to one kind of light, each with its share (vndf_render_sky): to the sun; to the sky above the horizon by its
-// cosine, or to the environment by its brightness (environment.h); to a triangle that shines; to a light at a point. What counts for
-// the first two, which are at infinity, is the density of both together.
+// cosine, or to the environment by its brightness (environment.h); to a triangle that shines; to a light at a point; to a sphere
+// (spheres.h). What counts for the first two, which are at infinity, is the density of both together, unless the sun is sampled
+// alone (VNDF_RENDER_CAPS_ALONE).
 #ifndef VNDF_RENDER_LIGHTS_H
 #define VNDF_RENDER_LIGHTS_H
 
@@ -10,7 +11,9 @@
 #if VNDF_RENDER_ENVIRONMENT
 #include "environment.h"
 #endif
+#include "meet.h"
 #include "random.h"
+#include "spheres.h"
 #include "texture.h"
 
 // What comes from a direction at infinity, and the density with which it is sampled.
@@ -26,10 +29,15 @@ struct vndf_render_lit {
 };
 
 #if VNDF_RENDER_SUN
-// 1 - cos of the angle to the middle of the sun, of directions near it without cancellation.
-VNDF_FN float vndf_render_gap(struct vndf_render_sky sky, float x, float y, float z) {
-    const float dx = x - sky.sun_x, dy = y - sky.sun_y, dz = z - sky.sun_z;
-    return 0.5f * VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz));
+VNDF_FN struct vndf_render_vector vndf_render_sun(struct vndf_render_sky sky) {
+    return vndf_render_vector_of(sky.sun_x, sky.sun_y, sky.sun_z);
+}
+VNDF_FN int vndf_render_in_sun(struct vndf_render_sky sky, struct vndf_render_vector w) {
+    return vndf_render_gap(vndf_render_sun(sky), w) <= sky.sun_gap;
+}
+// Of even samples of it.
+VNDF_FN float vndf_render_sun_pdf(struct vndf_render_sky sky) {
+    return sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap);
 }
 #endif
 
@@ -71,11 +79,12 @@ VNDF_FN struct vndf_render_far vndf_render_far_of(struct vndf_render_sky sky, VN
 #else
     (void)around;
     (void)around_pdf;
+    (void)w;
 #endif
     struct vndf_render_far far;
-#if VNDF_RENDER_SUN
-    const int in_sun = vndf_render_gap(sky, w.x, w.y, w.z) <= sky.sun_gap;
-    const float sun = in_sun ? sky.sun_share / (2.0f * VNDF_PI * sky.sun_gap) : 0.0f;
+#if VNDF_RENDER_SUN && !VNDF_RENDER_CAPS_ALONE
+    const int in_sun = vndf_render_in_sun(sky, w);
+    const float sun = in_sun ? vndf_render_sun_pdf(sky) : 0.0f;
     far.radiance = vndf_render_vector_of(radiance.x + (in_sun ? sky.sun_red : 0.0f),
                                          radiance.y + (in_sun ? sky.sun_green : 0.0f),
                                          radiance.z + (in_sun ? sky.sun_blue : 0.0f));
@@ -87,34 +96,21 @@ VNDF_FN struct vndf_render_far vndf_render_far_of(struct vndf_render_sky sky, VN
     return far;
 }
 
-// A direction about the zenith, even in cos^2; or about the middle of the sun, even in 1 - cos.
-VNDF_FN struct vndf_render_vector vndf_render_up_or_sun(struct vndf_render_sky sky, int to_sun, float b,
-                                                        float c) {
+// About the zenith, even in cos^2; or about the middle of the sun, even in 1 - cos.
+VNDF_FN struct vndf_render_toward vndf_render_up_or_sun(struct vndf_render_sky sky, int to_sun, float b) {
+    struct vndf_render_toward to;
 #if VNDF_RENDER_SUN
-    const float gap = to_sun ? b * sky.sun_gap : 1.0f - VNDF_SQRT(b);
-    const float nx = to_sun ? sky.sun_x : 0.0f, ny = to_sun ? sky.sun_y : 1.0f,
-                nz = to_sun ? sky.sun_z : 0.0f;
+    to.gap = to_sun ? b * sky.sun_gap : 1.0f - VNDF_SQRT(b);
+    to.axis = vndf_render_vector_of(to_sun ? sky.sun_x : 0.0f, to_sun ? sky.sun_y : 1.0f,
+                                    to_sun ? sky.sun_z : 0.0f);
 #else
     (void)sky;
     (void)to_sun;
-    const float gap = 1.0f - VNDF_SQRT(b), nx = 0.0f, ny = 1.0f, nz = 0.0f;
+    to.gap = 1.0f - VNDF_SQRT(b);
+    to.axis = vndf_render_vector_of(0.0f, 1.0f, 0.0f);
 #endif
-    const float radius = VNDF_SQRT(gap * (2.0f - gap)), height = 1.0f - gap;
-    const float x = radius * vndf_impl_circle_cos(c), y = radius * vndf_impl_circle_sin(c);
-    // Duff et al., Building an Orthonormal Basis, Revisited, 2017, about y, which is up.
-    const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), both = nx * nz * k;
-    return vndf_render_vector_of(VNDF_FMA(x, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(y, both, height * nx)),
-                                 VNDF_FMA(x, -s * nx, VNDF_FMA(y, -nz, height * ny)),
-                                 VNDF_FMA(x, s * both, VNDF_FMA(y, VNDF_FMA(nz * nz, k, s), height * nz)));
+    return to;
 }
-
-#if VNDF_RENDER_NEAR_LIGHT
-// Which of `count` rows to look at first, by a number in [0, 1).
-VNDF_FN uint vndf_render_row_by(float a, uint count) {
-    const uint row = (uint)(int)(a * (float)(int)count);
-    return row < count ? row : (count > 0 ? count - 1 : 0);
-}
-#endif
 
 #if VNDF_RENDER_LAMP
 // What a surface shines with at a place.
@@ -191,12 +187,10 @@ VNDF_FN struct vndf_render_lit vndf_render_to_point(VNDF_RENDER_FROM(float) poin
     lit.direction =
         vndf_render_vector_of(far ? -axis.x : unit.x, far ? -axis.y : unit.y, far ? -axis.z : unit.z);
     lit.distance = far ? VNDF_RENDER_ANYWHERE : VNDF_SQRT(square);
-    const float within = vndf_impl_max(
-        vndf_impl_min(VNDF_FMA(points[VNDF_POINT_SLOPE * count + row], -vndf_render_dot(lit.direction, axis),
-                               points[VNDF_POINT_OFFSET * count + row]),
-                      1.0f),
-        0.0f);
-    const float scale = within * within / (far || square == 0.0f ? 1.0f : square);
+    const float part =
+        vndf_render_spot_part(points[VNDF_POINT_SLOPE * count + row], -vndf_render_dot(lit.direction, axis),
+                              points[VNDF_POINT_OFFSET * count + row]);
+    const float scale = part / (far || square == 0.0f ? 1.0f : square);
     lit.radiance = vndf_render_scaled(scale, vndf_render_vector_at(points, VNDF_POINT_RED, count, row));
     lit.pdf = -points[VNDF_POINT_CHANCE * count + row];
     return lit;
@@ -207,12 +201,8 @@ VNDF_FN struct vndf_render_lit vndf_render_to_point(VNDF_RENDER_FROM(float) poin
 VNDF_FN struct vndf_render_lit vndf_render_rather(struct vndf_render_lit own, struct vndf_render_lit its,
                                                   float share, int other) {
     struct vndf_render_lit lit;
-    lit.direction = vndf_render_vector_of(other ? its.direction.x : own.direction.x,
-                                          other ? its.direction.y : own.direction.y,
-                                          other ? its.direction.z : own.direction.z);
-    lit.radiance = vndf_render_vector_of(other ? its.radiance.x : own.radiance.x,
-                                         other ? its.radiance.y : own.radiance.y,
-                                         other ? its.radiance.z : own.radiance.z);
+    lit.direction = vndf_render_either(its.direction, own.direction, other);
+    lit.radiance = vndf_render_either(its.radiance, own.radiance, other);
     lit.pdf = other ? share * its.pdf : own.pdf;
     lit.distance = other ? its.distance : own.distance;
     return lit;
@@ -221,12 +211,12 @@ VNDF_FN struct vndf_render_lit vndf_render_rather(struct vndf_render_lit own, st
 VNDF_RENDER_KERNEL vndf_render_lights(
     const struct vndf_render_sky sky, VNDF_RENDER_IN(float) around, VNDF_RENDER_IN(float) around_pdf,
     VNDF_RENDER_IN(float) around_keep, VNDF_RENDER_IN(uint) around_other, VNDF_RENDER_IN(float) lamps,
-    VNDF_RENDER_IN(uint) lamp_numbers, VNDF_RENDER_IN(float) points, const struct vndf_render_sizes sizes,
-    VNDF_RENDER_IN(float) vertices, VNDF_RENDER_IN(uint) triangles, VNDF_RENDER_IN(float) dressings,
-    VNDF_RENDER_IN(uint) textures, VNDF_RENDER_IN(uint) texels, VNDF_RENDER_IN(float) materials,
-    VNDF_RENDER_IN(uint) words, const uint quad, const uint pick_quad, VNDF_RENDER_IN(uint) slot,
-    const uint first, VNDF_RENDER_IN(float) surface, VNDF_RENDER_IN(float) path, const uint stride,
-    VNDF_RENDER_OUT(float) light) {
+    VNDF_RENDER_IN(uint) lamp_numbers, VNDF_RENDER_IN(float) points, VNDF_RENDER_IN(float) spheres,
+    const struct vndf_render_sizes sizes, VNDF_RENDER_IN(float) vertices, VNDF_RENDER_IN(uint) triangles,
+    VNDF_RENDER_IN(float) dressings, VNDF_RENDER_IN(uint) textures, VNDF_RENDER_IN(uint) texels,
+    VNDF_RENDER_IN(float) materials, VNDF_RENDER_IN(uint) words, const uint quad, const uint pick_quad,
+    VNDF_RENDER_IN(uint) slot, const uint first, VNDF_RENDER_IN(float) surface, VNDF_RENDER_IN(float) path,
+    const uint stride, VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
     const struct vndf_render_quad u = vndf_render_random(words + VNDF_QUAD_WORDS * quad, first + slot[i]);
 #if VNDF_RENDER_SUN
@@ -234,23 +224,50 @@ VNDF_RENDER_KERNEL vndf_render_lights(
 #else
     const int to_sun = 0;
 #endif
-    struct vndf_render_lit lit;
-    lit.direction = vndf_render_up_or_sun(sky, to_sun, u.b, u.c);
+    struct vndf_render_toward to = vndf_render_up_or_sun(sky, to_sun, u.b);
 #if VNDF_RENDER_PICKED_LIGHT
     const struct vndf_render_quad pick =
         vndf_render_random(words + VNDF_QUAD_WORDS * pick_quad, first + slot[i]);
 #else
     (void)pick_quad;
 #endif
+#if VNDF_RENDER_NEAR_LIGHT
+    const struct vndf_render_vector from = vndf_render_vector_at(path, VNDF_PATH_X, stride, i);
+    const float beyond = u.a - sky.sun_share - sky.sky_share;
+#else
+    (void)path;
+#endif
+#if VNDF_RENDER_SPHERE_LIGHT
+    const struct vndf_render_ball ball = vndf_render_ball_picked(spheres, sky.spheres, from, pick);
+    const int to_ball = beyond >= sky.lamp_share + sky.point_share && sky.spheres > 0;
+    to.axis = vndf_render_either(ball.axis, to.axis, to_ball);
+    to.gap = to_ball ? u.b * ball.gap : to.gap;
+#else
+    (void)spheres;
+#endif
+#if VNDF_RENDER_CONES
+    // In the middle of what the stage cones draws from.
+#if VNDF_RENDER_SUN
+    to.gap = to_sun ? 0.0f : to.gap;
+#endif
+#if VNDF_RENDER_SPHERE_LIGHT
+    to.gap = to_ball ? 0.0f : to.gap;
+#endif
+#endif
+    const struct vndf_render_vector about = vndf_render_about(to, u.c);
+    struct vndf_render_lit lit;
+    lit.direction = about;
 #if VNDF_RENDER_ENVIRONMENT
+#if VNDF_RENDER_SPHERE_LIGHT
+    const int by_image = !to_sun && !to_ball && sky.side > 0;
+#else
     const int by_image = !to_sun && sky.side > 0;
+#endif
     const struct vndf_render_vector image =
         vndf_render_env_sample(around, around_pdf, around_keep, around_other, sky.side > 0 ? sky.side : 1,
                                pick.a, pick.b, u.b, u.c)
             .direction;
-    lit.direction =
-        vndf_render_vector_of(by_image ? image.x : lit.direction.x, by_image ? image.y : lit.direction.y,
-                              by_image ? image.z : lit.direction.z);
+    lit.direction = vndf_render_either(image, lit.direction, by_image);
 #else
     (void)around_keep;
     (void)around_other;
@@ -259,11 +276,11 @@ VNDF_RENDER_KERNEL vndf_render_lights(
     lit.radiance = far.radiance;
     lit.pdf = far.pdf;
     lit.distance = VNDF_RENDER_ANYWHERE;
-#if VNDF_RENDER_NEAR_LIGHT
-    const struct vndf_render_vector from = vndf_render_vector_at(path, VNDF_PATH_X, stride, i);
-    const float beyond = u.a - sky.sun_share - sky.sky_share;
-#else
-    (void)path;
+#if VNDF_RENDER_SUN && VNDF_RENDER_CAPS_ALONE
+    const float sun_pdf = VNDF_RENDER_CONES ? sky.sun_share : -vndf_render_sun_pdf(sky);
+    lit.radiance = vndf_render_either(vndf_render_vector_of(sky.sun_red, sky.sun_green, sky.sun_blue),
+                                      lit.radiance, to_sun);
+    lit.pdf = to_sun ? sun_pdf : lit.pdf;
 #endif
 #if VNDF_RENDER_LAMP
     const struct vndf_render_looks looks =
@@ -288,6 +305,26 @@ VNDF_RENDER_KERNEL vndf_render_lights(
 #else
     (void)points;
 #endif
+#if VNDF_RENDER_SPHERE_LIGHT
+    struct vndf_render_lit on_ball;
+    on_ball.direction = about;
+    on_ball.radiance = ball.radiance;
+    on_ball.distance = VNDF_RENDER_CONES ? ball.distance : vndf_render_ball_way(ball, to.gap);
+    on_ball.pdf = VNDF_RENDER_CONES        ? ball.chance
+                  : VNDF_RENDER_CAPS_ALONE ? -vndf_render_ball_pdf(ball)
+                                           : vndf_render_ball_pdf(ball);
+    lit = vndf_render_rather(lit, on_ball, sky.sphere_share, to_ball);
+#endif
+#if VNDF_RENDER_CONES
+    float gap = 0.0f;
+#if VNDF_RENDER_SUN
+    gap = to_sun ? sky.sun_gap : gap;
+#endif
+#if VNDF_RENDER_SPHERE_LIGHT
+    gap = to_ball ? ball.gap : gap;
+#endif
+    light[VNDF_LIGHT_GAP * stride + i] = gap;
+#endif
     vndf_render_store(lit.direction, light, VNDF_LIGHT_DX, stride, i);
     vndf_render_store(lit.radiance, light, VNDF_LIGHT_RED, stride, i);
     light[VNDF_LIGHT_PDF * stride + i] = lit.pdf;
@@ -300,34 +337,21 @@ VNDF_RENDER_KERNEL vndf_render_lights(
     vndf_render_store(framed, light, VNDF_LIGHT_X, stride, i);
 }
 
-// The weight of a sample with the density p beside one that has q in the same direction, by the power heuristic: from the
-// ratio, since densities reach 1e38 and their squares nothing that is a number.
-// Source: Veach & Guibas, Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995.
-VNDF_FN float vndf_render_mis(float q_over_p) {
-    const float ratio = vndf_impl_min(q_over_p, 1e15f);
-    return 1.0f / VNDF_FMA(ratio, ratio, 1.0f);
-}
-
-// Adds to the light of a path's pixel what it carries of this much. Items beyond the count have a slot of their own, which nobody
-// reads.
-VNDF_FN void vndf_render_add_light(struct vndf_render_vector radiance, float kept,
-                                   VNDF_RENDER_FROM(float) path, VNDF_RENDER_FROM(uint) slot, uint count,
-                                   uint stride, uint i, VNDF_RENDER_TO(float) light) {
-    const uint to = i < count ? slot[i] : stride - 1;
-    light[to] += kept * path[VNDF_PATH_RED * stride + i] * radiance.x;
-    light[stride + to] += kept * path[VNDF_PATH_GREEN * stride + i] * radiance.y;
-    light[2 * stride + to] += kept * path[VNDF_PATH_BLUE * stride + i] * radiance.z;
-}
-
 VNDF_RENDER_KERNEL vndf_render_leave(const struct vndf_render_sky sky, VNDF_RENDER_IN(float) around,
                                      VNDF_RENDER_IN(float) around_pdf, VNDF_RENDER_IN(float) path,
                                      VNDF_RENDER_IN(uint) triangle, VNDF_RENDER_IN(uint) slot,
                                      const uint count, const uint stride, VNDF_RENDER_OUT(float) light) {
     const uint i = VNDF_RENDER_ITEM;
-    const struct vndf_render_far far =
-        vndf_render_far_of(sky, around, around_pdf, vndf_render_vector_at(path, VNDF_PATH_DX, stride, i));
-    const float weight = vndf_render_mis(far.pdf / path[VNDF_PATH_PDF * stride + i]);
+    const struct vndf_render_vector w = vndf_render_vector_at(path, VNDF_PATH_DX, stride, i);
+    const struct vndf_render_far far = vndf_render_far_of(sky, around, around_pdf, w);
+    const float weight = vndf_render_mis(far.pdf / vndf_render_path_pdf(path, stride, i));
     const int left = triangle[i] == VNDF_MISS && i < count;
+#if VNDF_RENDER_SUN && VNDF_RENDER_CAPS_ALONE
+    const float meets = vndf_render_meets_cap(vndf_render_sun_pdf(sky), sky.sun_share, path, stride, i);
+    vndf_render_add_light(vndf_render_vector_of(sky.sun_red, sky.sun_green, sky.sun_blue),
+                          left && vndf_render_in_sun(sky, w) ? meets : 0.0f, path, slot, count, stride, i,
+                          light);
+#endif
     vndf_render_add_light(far.radiance, left ? weight : 0.0f, path, slot, count, stride, i, light);
 }
 

@@ -25,6 +25,13 @@
 #include "../vndf/ggx_walter2007.h"
 #endif
 
+#if VNDF_RENDER_CONES
+#if !VNDF_CHOSEN(VNDF_NDF, ggx)
+#error "clvndf: VNDF_LIGHTS_BY cones: only GGX has them"
+#endif
+#include "../vndf/ggx_cone2026.h"
+#endif
+
 VNDF_RENDER_UNCONTRACTED
 
 // BSDF times cos(theta_i) over the density of a sample, and that density.
@@ -206,6 +213,43 @@ VNDF_FN struct vndf_rgb vndf_render_left(struct vndf_render_sizes sizes, VNDF_RE
     const struct vndf_render_row row = vndf_render_row_of(sizes, body > 0.0f ? (uint)(int)body - 1 : 0);
     return vndf_bsdf_transmittance(vndf_render_bsdf_of(materials, row, 0, 0.0f, 0.0f, 1.0f),
                                    body > 0.0f ? length : 0.0f);
+}
+#endif
+
+#if VNDF_RENDER_CAPS_ALONE
+// Whether samples of lights that fill a cap bring all of them here. Cones are those of the base's facets: what a coat reflects is
+// left to even samples and to the material's own, weighed.
+VNDF_FN int vndf_render_caps_alone(struct vndf_bsdf b) {
+#if VNDF_RENDER_CONES && VNDF_COAT
+    return !(b.coat > 0.0f);
+#else
+    (void)b;
+    return 1;
+#endif
+}
+#endif
+
+#if VNDF_RENDER_CONES
+// Of what a material without a coat sends from wo into a cap, the part that its facets reflect: about, from how often it draws them. 1
+// where there is nothing else. Of a cap that the horizon cuts, half of it, since many reflections go into the part below.
+VNDF_FN float vndf_render_facets_part(VNDF_REAL3 wo, VNDF_REAL3 l, float one_minus_cos, struct vndf_bsdf b) {
+    const struct vndf_impl_bsdf_view v = vndf_impl_bsdf_view_of(wo, b);
+    const VNDF_REAL3 on_side = VNDF_MAKE3(l.x, l.y, v.side * l.z);
+    const float metal = vndf_impl_bsdf_metal_drawn(v);
+#if VNDF_DIELECTRIC
+    const float f = vndf_fresnel_dielectric(vndf_impl_half_cosine(v.o, on_side), v.media.eta);
+    const float facets = metal + vndf_impl_odds_of(v.media, f).reflected;
+    const float others = vndf_impl_max((1.0f - metal) - v.media.specular, 0.0f);
+#else
+    const float facets = metal, others = 1.0f - metal;
+#endif
+    const float reflected =
+        facets * vndf_ggx_cap_probability(v.o, on_side, one_minus_cos, vndf_impl_bsdf_alpha(b));
+    // Of light that is spread by the cosine; of a cap at the horizon a part counts.
+    const float spread = others * 2.0f * one_minus_cos * vndf_impl_max(on_side.z, 0.1f);
+    const float sum = reflected + spread;
+    const int cut = on_side.z <= 0.0f || on_side.z * on_side.z < one_minus_cos * (2.0f - one_minus_cos);
+    return sum > 0.0f ? (cut ? 0.5f : 1.0f) * reflected / sum : 0.0f;
 }
 #endif
 

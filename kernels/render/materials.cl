@@ -4,3 +4,4 @@
 #include "media.h"
 #include "lights.h"
 #include "shade.h"
+#include "cones.h"

@@ -13,7 +13,8 @@
 #define VNDF_PATH_RED 6
 #define VNDF_PATH_GREEN 7
 #define VNDF_PATH_BLUE 8
-#define VNDF_PATH_PDF 9
+#define VNDF_PATH_PDF \
+    9  // negative with VNDF_RENDER_CAPS_ALONE: samples have brought all of the lights that fill a cap
 #define VNDF_PATH_BODY \
     10  // that it is in: 1 + the number of its material, 0 outside of all; with VNDF_ABSORPTION
 #define VNDF_PATH_PLANES 11
@@ -22,11 +23,12 @@
 #define VNDF_HIT_B1 0
 #define VNDF_HIT_B2 1
 #define VNDF_HIT_PLANES 2
+#define VNDF_HIT_WAY 2  // how far it went, behind the others with VNDF_RENDER_SPHERE_LIGHT
 #define VNDF_MISS 0xffffffffu
 #define VNDF_RENDER_ANYWHERE 3.0e38f  // farther than any hit
 
 // A direction towards the lights, in the world and in the surface's frame, what comes from there, later what of it arrives, and
-// its density: negative of a light without extent, which no other sample meets.
+// its density: negative where no other sample meets the light, as one without extent.
 #define VNDF_LIGHT_DX 0
 #define VNDF_LIGHT_DY 1
 #define VNDF_LIGHT_DZ 2
@@ -39,6 +41,11 @@
 #define VNDF_LIGHT_Z 9
 #define VNDF_LIGHT_DISTANCE 10  // with lights that have a place
 #define VNDF_LIGHT_PLANES 11
+// Behind them with VNDF_RENDER_CONES, of a light that fills a cap 1 - cos of its half angle, else 0. Of such a light the direction is
+// its middle, the distance that of its centre, and the density the chance that it was picked, until the stage cones, which leaves in
+// this place the density of the material above which the sample counts nothing.
+#define VNDF_LIGHT_GAP 11
+#define VNDF_LIGHT_MOST 11
 
 // A surface: normal and tangent in the world; where the path comes from and the geometric normal in the frame that they make.
 #define VNDF_SURFACE_NORMAL 0
@@ -187,6 +194,18 @@
 #define VNDF_POINT_CHANCE 14
 #define VNDF_POINT_PLANES 15
 
+// Lights that are spheres: as above, with their radius; radiance in place of candela.
+#define VNDF_SPHERE_KEEP 0
+#define VNDF_SPHERE_OTHER 1
+#define VNDF_SPHERE_RADIUS 2
+#define VNDF_SPHERE_PLACE 3
+#define VNDF_SPHERE_AXIS 6
+#define VNDF_SPHERE_RED 9
+#define VNDF_SPHERE_SLOPE 12
+#define VNDF_SPHERE_OFFSET 13
+#define VNDF_SPHERE_CHANCE 14
+#define VNDF_SPHERE_PLANES 15
+
 // How many rows the tables have, and 1.0f for material.h.
 struct vndf_render_sizes {
     unsigned int vertices, triangles, materials;
@@ -218,10 +237,11 @@ struct vndf_render_sky {
     float sun_red, sun_green, sun_blue;
     float sun_x, sun_y, sun_z;  // towards its middle
     float sun_gap;              // 1 - cos of its radius
-    // Shares of the samples of light: of the sun, of the sky or the environment, of triangles that shine, of lights at a point.
-    float sun_share, sky_share, lamp_share, point_share;
+    // Shares of the samples of light: of the sun, of the sky or the environment, of triangles that shine, of lights at a point,
+    // of spheres.
+    float sun_share, sky_share, lamp_share, point_share, sphere_share;
     unsigned int side;  // cells of the environment each way; 0: there is none, but the sky
-    unsigned int lamps, points;
+    unsigned int lamps, points, spheres;
 };
 
 #endif

@@ -73,7 +73,7 @@ VNDF_RENDER_KERNEL vndf_render_glow(const struct vndf_render_sizes sizes, const 
     const float density = densities[i < count && sky.lamps > 0 ? triangle[i] : 0];
     const float pdf =
         sky.lamp_share * vndf_impl_min(density * surface[VNDF_SURFACE_SOLID * stride + i], 1e30f);
-    const float weight = vndf_render_mis(pdf / path[VNDF_PATH_PDF * stride + i]);
+    const float weight = vndf_render_mis(pdf / vndf_render_path_pdf(path, stride, i));
 #else
     (void)sky;
     (void)densities;
@@ -101,7 +101,7 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
         vndf_render_turned(wi, turn), bsdf);
     // f / q times the power heuristic 1 / (1 + (p / q)^2) with f = weight p and the light's density q.
     float light_pdf = lights[VNDF_LIGHT_PDF * stride + i];
-#if VNDF_RENDER_POINT_LIGHT
+#if VNDF_RENDER_LONE_LIGHT
     const int point = light_pdf < 0.0f;
     light_pdf = vndf_impl_abs(light_pdf);
 #endif
@@ -113,10 +113,16 @@ VNDF_RENDER_KERNEL vndf_render_connect(const struct vndf_render_sizes sizes, VND
     const int reached = light_pdf > 0.0f;
 #endif
     const float alone = vndf_render_mis(ratio);
-#if VNDF_RENDER_POINT_LIGHT
-    const float share = reached ? ratio * (point ? 1.0f : alone) : 0.0f;
+#if VNDF_RENDER_CONES
+    // Or the path finds it itself.
+    const int counts = reached && value.pdf <= lights[VNDF_LIGHT_MOST * stride + i];
 #else
-    const float share = reached ? ratio * alone : 0.0f;
+    const int counts = reached;
+#endif
+#if VNDF_RENDER_LONE_LIGHT
+    const float share = counts ? ratio * (point ? 1.0f : alone) : 0.0f;
+#else
+    const float share = counts ? ratio * alone : 0.0f;
 #endif
     struct vndf_rgb weight = value.weight;
 #if VNDF_DIELECTRIC && VNDF_ABSORPTION
@@ -136,9 +142,7 @@ VNDF_FN void vndf_render_pass(VNDF_RENDER_FROM(float) surface, int crosses, VNDF
     const struct vndf_render_vector normal = vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
                                     tangent = vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i),
                                     face = vndf_render_vector_at(surface, VNDF_SURFACE_GEOMETRIC, stride, i);
-    const struct vndf_render_vector geometric = vndf_render_sum(
-        vndf_render_sum(vndf_render_scaled(face.x, tangent), face.y, vndf_render_cross(normal, tangent)),
-        face.z, normal);
+    const struct vndf_render_vector geometric = vndf_render_world(normal, tangent, face);
     const float offset = surface[VNDF_SURFACE_OFFSET * stride + i];
     const float step = crosses ? -2.0f * vndf_impl_abs(offset) : 0.0f;
     vndf_render_store(vndf_render_sum(vndf_render_vector_at(path, VNDF_PATH_X, stride, i), step, geometric),
@@ -165,6 +169,10 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
     path[VNDF_PATH_RED * stride + i] *= wi.value.weight.r;
     path[VNDF_PATH_GREEN * stride + i] *= wi.value.weight.g;
     path[VNDF_PATH_BLUE * stride + i] *= wi.value.weight.b;
+    float pdf = vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
+#if VNDF_RENDER_CAPS_ALONE
+    pdf = vndf_render_caps_alone(bsdf) ? -pdf : pdf;
+#endif
 #if VNDF_DIELECTRIC
     // Through the surface the path goes on from its other side. A light in its way counts in full: none was sampled there.
     const int crosses = z < 0.0f;
@@ -179,10 +187,9 @@ VNDF_RENDER_KERNEL vndf_render_scatter(const struct vndf_render_sizes sizes, VND
 #endif
     path[VNDF_PATH_BODY * stride + i] = enters ? entered : body;
 #endif
-    path[VNDF_PATH_PDF * stride + i] =
-        crosses ? 1e30f : vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
+    path[VNDF_PATH_PDF * stride + i] = crosses ? 1e30f : pdf;
 #else
-    path[VNDF_PATH_PDF * stride + i] = vndf_impl_min(vndf_impl_max(wi.value.pdf, 1e-12f), 1e30f);
+    path[VNDF_PATH_PDF * stride + i] = pdf;
 #endif
 }
 

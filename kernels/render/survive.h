@@ -14,9 +14,7 @@ VNDF_RENDER_KERNEL vndf_render_survive(VNDF_RENDER_IN(float) surface, VNDF_RENDE
     const struct vndf_render_vector wi = vndf_render_vector_at(path, VNDF_PATH_DX, stride, i),
                                     normal = vndf_render_vector_at(surface, VNDF_SURFACE_NORMAL, stride, i),
                                     tangent = vndf_render_vector_at(surface, VNDF_SURFACE_TANGENT, stride, i);
-    const struct vndf_render_vector on = vndf_render_unit_vector(vndf_render_sum(
-        vndf_render_sum(vndf_render_scaled(wi.x, tangent), wi.y, vndf_render_cross(normal, tangent)), wi.z,
-        normal));
+    const struct vndf_render_vector on = vndf_render_unit_vector(vndf_render_world(normal, tangent, wi));
     const struct vndf_render_vector carried = vndf_render_vector_at(path, VNDF_PATH_RED, stride, i);
     const float luminance = VNDF_FMA(0.2126f, carried.x, VNDF_FMA(0.7152f, carried.y, 0.0722f * carried.z));
     const float chance = roulette ? vndf_impl_min(luminance, 1.0f) : 1.0f;

@@ -34,6 +34,9 @@ VNDF_FN void vndf_render_store_hit(struct vndf_render_hit found, uint stride, ui
     hit[VNDF_HIT_B1 * stride + i] = found.b1;
     hit[VNDF_HIT_B2 * stride + i] = found.b2;
     triangle[i] = found.triangle;
+#if VNDF_RENDER_SPHERE_LIGHT
+    hit[VNDF_HIT_WAY * stride + i] = found.t;
+#endif
 }
 
 VNDF_RENDER_KERNEL vndf_render_traverse(VNDF_RENDER_IN(float) nodes, VNDF_RENDER_IN(float) leaves,

@@ -54,6 +54,34 @@ VNDF_FN struct vndf_render_vector vndf_render_unit_after(float before, struct vn
     return vndf_render_scaled(1.0f / VNDF_SQRT(square > 0.0f && before >= 0.0f ? square : 1.0f), v);
 }
 
+VNDF_FN struct vndf_render_vector vndf_render_either(struct vndf_render_vector a, struct vndf_render_vector b,
+                                                     int first) {
+    return vndf_render_vector_of(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+
+// 1 - cos of the angle between two unit vectors, of near ones without cancellation.
+VNDF_FN float vndf_render_gap(struct vndf_render_vector a, struct vndf_render_vector b) {
+    const float dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+    return 0.5f * VNDF_FMA(dx, dx, VNDF_FMA(dy, dy, dz * dz));
+}
+
+// Directions with one angle to an axis, a unit vector: 1 - cos of it.
+struct vndf_render_toward {
+    struct vndf_render_vector axis;
+    float gap;
+};
+// One of them. turn: which, in [0, 1).
+// Source of the frame: Duff et al., Building an Orthonormal Basis, Revisited, 2017, about y, which is up.
+VNDF_FN struct vndf_render_vector vndf_render_about(struct vndf_render_toward to, float turn) {
+    const float nx = to.axis.x, ny = to.axis.y, nz = to.axis.z;
+    const float radius = VNDF_SQRT(to.gap * (2.0f - to.gap)), height = 1.0f - to.gap;
+    const float x = radius * vndf_impl_circle_cos(turn), y = radius * vndf_impl_circle_sin(turn);
+    const float s = ny < 0.0f ? -1.0f : 1.0f, k = -1.0f / (s + ny), both = nx * nz * k;
+    return vndf_render_vector_of(VNDF_FMA(x, VNDF_FMA(s * nx * nx, k, 1.0f), VNDF_FMA(y, both, height * nx)),
+                                 VNDF_FMA(x, -s * nx, VNDF_FMA(y, -nz, height * ny)),
+                                 VNDF_FMA(x, s * both, VNDF_FMA(y, VNDF_FMA(nz * nz, k, s), height * nz)));
+}
+
 // w in the frame of two unit vectors.
 VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector normal,
                                                     struct vndf_render_vector tangent,
@@ -61,6 +89,15 @@ VNDF_FN struct vndf_render_vector vndf_render_local(struct vndf_render_vector no
     return vndf_render_vector_of(vndf_render_dot(w, tangent),
                                  vndf_render_dot(w, vndf_render_cross(normal, tangent)),
                                  vndf_render_dot(w, normal));
+}
+
+// And back.
+VNDF_FN struct vndf_render_vector vndf_render_world(struct vndf_render_vector normal,
+                                                    struct vndf_render_vector tangent,
+                                                    struct vndf_render_vector w) {
+    return vndf_render_sum(
+        vndf_render_sum(vndf_render_scaled(w.x, tangent), w.y, vndf_render_cross(normal, tangent)), w.z,
+        normal);
 }
 
 #endif

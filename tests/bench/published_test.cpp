@@ -1,5 +1,8 @@
 // The published listings under bench/published, and their lean forms under bench/lean, are what clvndf bench compares with: a
 // time only means something if the listing draws from the distribution it was published for.
+#include <cmath>
+#include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -100,6 +103,40 @@ TEST_CASE("the cap in a basis draws from the density of the isotropic sampler in
             CAPTURE(runtime::to_string(math), lobe.cos_theta, lobe.alpha[0], lobe.n[2]);
             CHECK(failures(evaluator, world, world, lobe, ++stream, 1e-9) == "");
         }
+    }
+}
+
+TEST_CASE("even samples of a cap, and those with reflections beside them, have the density they report") {
+    const Function& f = *find_function("vndf_ggx_sample_wi_cone2026_with_pdf");
+    const std::map<std::string, float> lobe{{"wo_x", 0.6f},          {"wo_y", 0},       {"wo_z", 0.8f},
+                                            {"l_x", -0.28f},         {"l_y", 0},        {"l_z", 0.96f},
+                                            {"one_minus_cos", 0.1f}, {"alpha_x", 0.3f}, {"alpha_y", 0.5f}};
+    for (const char* root : {"bench/cap_evenly.cl", "bench/cap_both.cl"}) {
+        runtime::DeviceEvaluator evaluator = evaluator_of(root, runtime::Math::strict);
+        std::vector<std::vector<float>> columns;
+        for (const std::string& input : f.inputs)
+            columns.emplace_back(samples, lobe.contains(input) ? lobe.at(input) : 0.0f);
+        evaluator.uniforms(1, 1, samples, columns.at(column(f, "u1")).data(),
+                           columns.at(column(f, "u2")).data());
+        std::vector<const void*> inputs;
+        for (const auto& values : columns) inputs.push_back(values.data());
+        std::vector<float> x(samples), y(samples), z(samples), pdf(samples);
+        evaluator.run(f, samples, inputs, {x.data(), y.data(), z.data(), pdf.data()});
+        // The solid angle of the cap, and the mean of z in it, times that, by samples over their density.
+        double angle = 0, height = 0, square = 0;
+        std::size_t outside = 0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            if (!(pdf[i] > 0)) continue;
+            outside += -0.28 * x[i] + 0.96 * z[i] < 0.9 - 1e-5;
+            angle += 1.0 / pdf[i] / samples, height += z[i] / pdf[i] / samples;
+            square += 1.0 / pdf[i] / pdf[i] / samples;
+        }
+        CAPTURE(root);
+        CHECK(outside == 0);
+        const double cap = 2 * std::numbers::pi * 0.1,
+                     error = std::sqrt(std::max(square - angle * angle, 0.0) / samples) + 1e-6;
+        CHECK(std::abs(angle - cap) < 5 * error);
+        CHECK(std::abs(height - cap * 0.96 * 0.95) < 5 * error + 1e-3 * cap);
     }
 }
 

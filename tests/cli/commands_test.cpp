@@ -96,10 +96,10 @@ TEST_CASE("every command runs to its end with every option") {
         "render --help",
         "render --output a.png --size 16x8 --spp 1 --max-bounces 2 --sampler plain --ndf ggx --masking "
         "separable --energy kulla_conty --random philox "
-        "--math builtin --orbs anisotropy --sky white --effects all --device \"$device\"",
+        "--math builtin --orbs anisotropy --sky white --lights-by cones --effects all --device \"$device\"",
         "render plain.gltf --output a.exr --size 8x4 --time 0.01 --explain --effect-costs",
         "render busy.glb --output c.png --size 8x4 --spp 1 --camera front --env env.hdr --env-rotation 90 "
-        "--checkpoint at --report render.json --exposure -1",
+        "--light-radius 0.1 --checkpoint at --report render.json --exposure -1",
         "render --output b.png --size 8x4 --target-error 0.5",
         "policies --help",
         "policies --only vndf_reflect --quick --flags cycles",

@@ -160,7 +160,9 @@ TEST_CASE(
     scene.lights = {
         {PunctualLight::Kind::point, {1, 0.5f, 0.5f}, 8, {2, 3, 2}, {}},
         {PunctualLight::Kind::spot, {0.5f, 1, 0.5f}, 20, {-2, 4, 2}, {0.3f, -0.9f, 0}, 0.2f, 0.5f},
-        {PunctualLight::Kind::directional, {0.5f, 0.5f, 1}, 1, {}, {0, -0.8f, -0.6f}}};
+        {PunctualLight::Kind::directional, {0.5f, 0.5f, 1}, 1, {}, {0, -0.8f, -0.6f}},
+        {PunctualLight::Kind::spot, {1, 0.8f, 0.6f}, 9, {1, 3, 1}, {0, -1, 0}, 0.2f, 0.7f, 0.4f},
+        {PunctualLight::Kind::point, {0.6f, 0.8f, 1}, 4, {-1, 2.5f, 3}, {}, 0, 0, 0.2f}};
     Rendered r = rendered(scene, 60, 25, 4);
     const render::Image called = r.image();
     CHECK(called.bad_pixels == 0);

@@ -65,8 +65,9 @@ TEST_CASE("renders with switches of the environment", "[.]") {
 
 TEST_CASE("every stage of the renderer is vectorised on PoCL, but those that cannot be") {
     if (!on_pocl()) VNDF_SKIP(not_pocl);
-    for (const std::string options : {"", "--effects all", "--effects all --random philox", "--orbs diffuse",
-                                      "--orbs anisotropy", "--orbs metals"}) {
+    for (const std::string options :
+         {"", "--effects all", "--effects all --random philox", "--orbs diffuse", "--orbs anisotropy",
+          "--orbs metals", "--effects all --light-radius 0.3 --lights-by cones"}) {
         CAPTURE(options);
         const auto all = remarks_of_command(options);
         CHECK(all.size() >= 12);

@@ -75,6 +75,8 @@ inline const std::map<std::string, Values>& values() {
         {"--camera", {{"front", "0"}, {""}}},
         {"--env", {{"a.hdr", "b.exr"}, {""}}},
         {"--env-rotation", {{"-12.5", "90"}, {"", "nan", "inf", "1e5", "5x"}}},
+        {"--light-radius", {{"0.1", "1e3"}, {"", "nan", "inf", "0", "-1", "1e7", "5x"}}},
+        {"--lights-by", {{"mis", "cap", "bsdf", "cones"}, {"", "vndf", "Mis"}}},
         {"--checkpoint", {{"a", "a/b"}, {""}}},
         {"--exposure", {{"-2.5", "0"}, {"", "nan", "inf", "1e5", "5x"}}},
         {"--effects", {{"auto", "all", "conductor,lambert"}, {""}}},
