@@ -69,7 +69,44 @@ const Device& default_device(const std::vector<Device>& all) {
     return pocl == all.end() ? all.front() : *pocl;
 }
 
+constexpr std::string_view every = "all";
+
+// Which option or variable asks, whose value becomes `wanted`.
+std::string asking(std::string& wanted) {
+    const char* const variable = std::getenv("CLVNDF_DEVICE");
+    if (!wanted.empty() || !variable) return "--device";
+    wanted = variable;
+    return "CLVNDF_DEVICE";
+}
+
+std::string labels(const std::vector<Device>& all) {
+    std::string text;
+    for (const Device& d : all) text += (text.empty() ? "'" : ", '") + d.label() + "'";
+    return text;
+}
+
+// Those whose platform or device name contains `name`; throws if there are none.
+std::vector<Device> matching(const std::vector<Device>& all, const std::string& name,
+                             const std::string& option) {
+    std::vector<Device> matches;
+    for (const Device& d : all)
+        if (lower(d.platform).find(lower(name)) != std::string::npos ||
+            lower(d.name).find(lower(name)) != std::string::npos)
+            matches.push_back(d);
+    if (!matches.empty()) return matches;
+    if (const std::string why = why_without_device(name); !why.empty())
+        throw DeviceError(fmt::format("{} '{}': {}", option, name, why));
+    throw InputError(
+        fmt::format("{}: no platform or device name contains '{}'; there are {}", option, name, labels(all)));
+}
+
 }  // namespace
+
+std::string Device::kind() const {
+    return fmt::format("{}, {}, driver {}{}{}{}{}", label(), platform_version, driver, fp64 ? ", fp64" : "",
+                       fma ? ", fma" : "", denormals ? ", subnormals" : "",
+                       correct_divide_sqrt ? ", correctly rounded division" : "");
+}
 
 std::vector<Device> devices() {
     require_surviving_drivers();
@@ -85,31 +122,28 @@ std::vector<Device> devices() {
 }
 
 Choice choose_device(const std::vector<Device>& all, std::string wanted) {
-    std::string option = "--device";
-    if (const char* variable = std::getenv("CLVNDF_DEVICE"); wanted.empty() && variable) {
-        option = "CLVNDF_DEVICE";
-        wanted = variable;
-    }
+    const std::string option = asking(wanted);
     if (all.empty()) throw DeviceError(no_device());
     if (wanted.empty()) return {default_device(all), {}};
+    if (wants_all(wanted))
+        throw InputError(
+            fmt::format("{} '{}': this command uses one device; there are {}", option, wanted, labels(all)));
+    const std::vector<Device> matches = matching(all, wanted, option);
+    if (matches.size() == 1) return {matches.front(), {}};
+    return {matches.front(), fmt::format("{}: '{}' matches {} devices; taking '{}'", option, wanted,
+                                         matches.size(), matches.front().label())};
+}
 
-    std::vector<const Device*> matches;
-    std::string labels;
-    for (const Device& d : all) {
-        labels += (labels.empty() ? "'" : ", '") + d.label() + "'";
-        const bool match = lower(d.platform).find(lower(wanted)) != std::string::npos ||
-                           lower(d.name).find(lower(wanted)) != std::string::npos;
-        if (match) matches.push_back(&d);
-    }
-    if (matches.empty()) {
-        if (const std::string why = why_without_device(wanted); !why.empty())
-            throw DeviceError(fmt::format("{} '{}': {}", option, wanted, why));
-        throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option,
-                                     wanted, labels));
-    }
-    if (matches.size() == 1) return {*matches.front(), {}};
-    return {*matches.front(), fmt::format("{}: '{}' matches {} devices; taking '{}'", option, wanted,
-                                          matches.size(), matches.front()->label())};
+std::vector<Device> choose_devices(const std::vector<Device>& all, std::string wanted) {
+    const std::string option = asking(wanted);
+    if (all.empty()) throw DeviceError(no_device());
+    return wanted == every ? all : matching(all, wanted.substr(every.size() + 1), option);
+}
+
+bool wants_all(std::string wanted) {
+    asking(wanted);
+    return wanted == every ||
+           (wanted.starts_with(every) && wanted.size() > every.size() + 1 && wanted[every.size()] == ':');
 }
 
 void require_real(const Device& device, Real real) {

@@ -19,7 +19,7 @@ struct KnownBias {
 
 // One statistical test of one lobe.
 struct LobeTest {
-    const char* name;  // "chi2 of the pivots", ...
+    std::string name;  // "chi2 of the pivots", ...
     bool is_p = true;
     double figure = 1;  // p, or for means the deviation in tolerances
     std::string detail;
@@ -33,7 +33,7 @@ struct CellCounts {
 
 // A mean against its expectation.
 struct MeanTest {
-    const char* name;  // "x", "stretched z", ...
+    std::string name;  // "x", "stretched z", ...
     double difference = 0, tolerance = 0;
     double error = 0;  // the standard error of the mean
 };
