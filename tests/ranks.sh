@@ -15,6 +15,7 @@ cannot() {
 
 [ $# -ge 3 ] || cannot "usage: ranks.sh BUILD WORK hosts|speed [REPEAT]"
 build=$1 work=$2 what=$3 repeat=${4-3}
+case $what in hosts | speed) ;; *) cannot "'$what': hosts and speed are what there is" ;; esac
 [ -x "$build/clvndf" ] || cannot "no $build/clvndf: build it first (cmake --build $build --target clvndf)"
 clvndf=$(cd "$build" && pwd)/clvndf
 mkdir -p "$work" && cd "$work" || cannot "$work: cannot make this folder"
@@ -88,6 +89,15 @@ while i < len(d):
     pixels alone.png >a.pixels && pixels together.png >b.pixels
     cmp a.pixels b.pixels && echo "$render, $(($(sent) - before)) bytes between the hosts: the same" || status=1
 
+    # Of a benchmark the entries and what is no time; copies are there once.
+    bench="bench --quick --only vndf_ggx_*2018_with_pdf/strict --repetitions 3 --json"
+    figures() { python3 -c 'import json, sys
+for b in json.load(open(sys.argv[1]))["benchmarks"]:
+    print(b["name"], b.get("err_p50"), b.get("err_p99"), b["samples"])' "$1" | sort; }
+    "$clvndf" --quiet $bench alone.json >out && on_hosts "$clvndf" --quiet $bench together.json >out
+    figures alone.json >a.figures && figures together.json >b.figures
+    same "bench of $(grep -c best a.figures) entries" a.figures b.figures
+
     # The cable is cut in the middle: we notice, and mpirun, which then ends what it can reach.
     (sleep 4; ip -n $one link set eth0 down) &
     on_hosts -x CLVNDF_RANK_TIMEOUT=3 "$clvndf" --quiet check --exhaustive --checkpoint at >out 2>err
@@ -114,17 +124,17 @@ better() { awk "BEGIN { print $1 > $2 ? $1 : $2 }"; }
 speed() {
     export POCL_MAX_PTHREAD_COUNT=1
     walk="$clvndf --quiet check --exhaustive --only vndf_ggx_sample_wm_dupuy2023 --slice"
-    two_ranks() { mpirun -n 2 --map-by core --bind-to core $walk 1/60; }
+    two_ranks() { mpirun -n 2 --map-by core --bind-to core $walk 1/100; }
     # Two processes that know nothing of each other, a half each: what the machine has to give just now.
     apart() {
-        POCL_CACHE_DIR="$PWD/cache/rank-1" taskset -c 1 $walk 61/120 >/dev/null &
-        taskset -c 0 $walk 1/120
+        POCL_CACHE_DIR="$PWD/cache/rank-1" taskset -c 1 $walk 101/200 >/dev/null &
+        taskset -c 0 $walk 1/200
         wait
     }
     two_ranks >/dev/null && apart >/dev/null || exit 1  # compiles
     best_one=0 best_two=0 best_apart=0
     for i in $(seq "$repeat"); do
-        one=$(rate out "$(timed out taskset -c 0 $walk 1/60)")
+        one=$(rate out "$(timed out taskset -c 0 $walk 1/100)")
         two=$(rate out "$(timed out two_ranks)")
         halves=$(rate out "$(timed out apart)") # of a half
         both=$(awk "BEGIN { print 2 * $halves }")
@@ -135,9 +145,5 @@ speed() {
         $best_two / $best_one / 2, $best_two / $best_apart }"
 }
 
-case $what in
-hosts) hosts ;;
-speed) speed ;;
-*) cannot "'$what': hosts and speed are what there is" ;;
-esac
+$what
 exit $status

@@ -42,8 +42,8 @@ runtime::Real real_named(const std::string& name) {
     return name == "float" ? runtime::Real::f32 : runtime::Real::f64;
 }
 
-void Target::add_to(CLI::App& command) {
-    add_device(command, device);
+void Target::add_to(CLI::App& command, bool several) {
+    add_device(command, device, several);
     add_switches(command, math_name, real_name);
 }
 
@@ -120,7 +120,9 @@ runtime::Team::Options team_options(const std::string& what) {
 std::string Target::in_words() const {
     const Target usual;
     std::string words;
-    if (!device.empty()) words += " --device " + quoted_for_shell(device);
+    // Of several devices, which are alike, any will do.
+    const std::string one = runtime::one_of_all(device);
+    if (!one.empty()) words += " --device " + quoted_for_shell(one);
     if (math_name != usual.math_name) words += " --math " + math_name;
     if (real_name != usual.real_name) words += " --real " + real_name;
     return words;

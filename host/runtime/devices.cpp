@@ -69,7 +69,7 @@ const Device& default_device(const std::vector<Device>& all) {
     return pocl == all.end() ? all.front() : *pocl;
 }
 
-constexpr std::string_view every = "all";
+constexpr std::string_view every = "all", every_of = "all:";
 
 // Which option or variable asks, whose value becomes `wanted`.
 std::string asking(std::string& wanted) {
@@ -134,16 +134,20 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted) {
                                          matches.size(), matches.front().label())};
 }
 
+bool wants_all(std::string wanted) {
+    asking(wanted);
+    return wanted == every || (wanted.starts_with(every_of) && wanted.size() > every_of.size());
+}
+
+std::string one_of_all(const std::string& wanted) {
+    if (wanted == every) return {};
+    return wants_all(wanted) ? wanted.substr(every_of.size()) : wanted;
+}
+
 std::vector<Device> choose_devices(const std::vector<Device>& all, std::string wanted) {
     const std::string option = asking(wanted);
     if (all.empty()) throw DeviceError(no_device());
-    return wanted == every ? all : matching(all, wanted.substr(every.size() + 1), option);
-}
-
-bool wants_all(std::string wanted) {
-    asking(wanted);
-    return wanted == every ||
-           (wanted.starts_with(every) && wanted.size() > every.size() + 1 && wanted[every.size()] == ':');
+    return wanted == every ? all : matching(all, one_of_all(wanted), option);
 }
 
 void require_real(const Device& device, Real real) {

@@ -46,6 +46,9 @@ Choice choose_device(const std::vector<Device>& all, std::string wanted);
 // device name contains NAME.
 bool wants_all(std::string wanted);
 
+// What asks for one of them: "" for "all", "NAME" for "all:NAME", and anything else for itself.
+std::string one_of_all(const std::string& wanted);
+
 // Those, in the loader's order. Throws as choose_device() does.
 std::vector<Device> choose_devices(const std::vector<Device>& all, std::string wanted);
 

@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
@@ -20,11 +20,15 @@
 namespace vndf::runtime {
 namespace {
 
-// How many processes a launcher of MPI says that it has started: Open MPI's, MPICH's.
+int number_in(const char* variable) {
+    const char* const value = std::getenv(variable);
+    return value ? std::atoi(value) : 0;
+}
+
+// How many processes a launcher of MPI says that it has started: Open MPI's, or MPICH's, whose word for one others use as well.
 int launched() {
-    for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-        if (const char* const value = std::getenv(variable)) return std::atoi(value);
-    return 0;
+    const int by_mpich = number_in("PMI_SIZE");
+    return std::max(number_in("OMPI_COMM_WORLD_SIZE"), by_mpich > 1 ? by_mpich : 0);
 }
 
 #if CLVNDF_MPI

@@ -37,7 +37,7 @@ std::vector<const Function*> select(const std::string& pattern);
 std::vector<std::string> needed(const std::vector<const Function*>& selected);
 
 // A run in pieces that evaluators of one kind judge in any order and anywhere, with the same results: what a function makes of
-// single inputs, and its samples a dozen lobes at a time. The options must outlive it.
+// single inputs, and its samples some lobes at a time. The options must outlive it.
 class CheckRun {
   public:
     CheckRun(runtime::Math math, runtime::Real real, const std::vector<const Function*>& selected,
