@@ -229,6 +229,38 @@ Measurement Measurer::finish(const Surroundings& surroundings) {
     return measurement;
 }
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Result, name, best_ns, median_ns, counters)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Measurement, results, spread, json)
+
+std::string packed(const Measurement& measurement) {
+    std::string bytes;
+    nlohmann::json::to_cbor(measurement, bytes);
+    return bytes;
+}
+
+Measurement unpacked(const std::string& bytes) {
+    return nlohmann::json::from_cbor(bytes);
+}
+
+Measurement merged(const std::vector<Measurement>& parts, const Surroundings& surroundings) {
+    Measurement whole;
+    std::map<std::string, double> best_ns;
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(parts.front().json);
+    for (const auto& [key, value] : surroundings.context) json["context"][key] = value;
+    json["benchmarks"].clear();
+    for (const Measurement& part : parts) {
+        std::set<std::string> before;
+        for (const auto& [name, _] : best_ns) before.insert(name);
+        for (const Result& result : part.results)
+            if (best_ns.emplace(result.name, result.best_ns).second) whole.results.push_back(result);
+        for (const auto& run : nlohmann::ordered_json::parse(part.json)["benchmarks"])
+            if (!before.contains(run["run_name"])) json["benchmarks"].push_back(run);
+    }
+    whole.spread = spread_of(best_ns);
+    whole.json = with_surroundings(json.dump(), surroundings, whole.spread);
+    return whole;
+}
+
 std::vector<Result> read_results(const std::string& json, const std::string& path) {
     const auto fail = [&](const std::string& why) { throw InputError(fmt::format("{}: {}", path, why)); };
     std::vector<Result> results;

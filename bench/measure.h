@@ -57,6 +57,14 @@ class Measurer {
     std::unique_ptr<State> state_;
 };
 
+// A measurement as bytes that another process reads.
+std::string packed(const Measurement& measurement);
+Measurement unpacked(const std::string& bytes);
+
+// Measurements of batches that were made apart, as one Measurer would have put them together: in the order given, of entries of
+// the same name the first.
+Measurement merged(const std::vector<Measurement>& parts, const Surroundings& surroundings);
+
 // Results by name out of such a JSON text. Throws InputError, naming `path`.
 std::vector<Result> read_results(const std::string& json, const std::string& path);
 

@@ -4,7 +4,8 @@
 #
 #   sh host/setup.sh            install what is missing (as root, or through sudo)
 #   sh host/setup.sh --devices  that, and the devices and compilers that only some tests use and skip without: Oclgrind,
-#                               rusticl, clang, PyOpenCL, what cpack uses, compilers for other processors and their emulators
+#                               rusticl, clang, PyOpenCL, what cpack uses, compilers for other processors and their emulators,
+#                               and Open MPI, with which the command is then built
 #   sh host/setup.sh --list     print the package names and do nothing
 #
 # Exit status: 0 everything is there, 1 the installation failed, 2 unknown system or option, 3 no rights.
@@ -53,7 +54,7 @@ esac
 
 # rusticl's kernel library is that of the LLVM that Mesa was built with; Debian 13 has no Oclgrind.
 if [ -n "$devices" ]; then
-    packages="$packages clang mesa-opencl-icd python3-pyopencl python3-venv dpkg-dev file qemu-user"
+    packages="$packages clang mesa-opencl-icd python3-pyopencl python3-venv dpkg-dev file qemu-user libopenmpi-dev openmpi-bin"
     packages="$packages g++-aarch64-linux-gnu g++-riscv64-linux-gnu g++-s390x-linux-gnu g++-powerpc64le-linux-gnu"
     packages="$packages g++-arm-linux-gnueabihf g++-i686-linux-gnu"
     [ "$system" = "debian 12" ] && packages="$packages libclc-15 oclgrind" || packages="$packages libclc-19"

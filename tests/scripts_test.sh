@@ -37,6 +37,9 @@ rm "$empty/clvndf"
 cannot "no $empty/clvndf: build it first" "$tests/packages.sh" "$project" "$empty" "$empty/work"
 cannot "no $empty/clvndf: build it first" "$tests/rusticl.sh" "$project" "$empty"
 cannot "no function nosuch" "$tests/rusticl.sh" "$project" "$build" nosuch
+cannot "usage: ranks.sh" "$tests/ranks.sh" "$build"
+cannot "no $empty/clvndf: build it first" "$tests/ranks.sh" "$empty" "$empty/work" hosts
+cannot "'both': hosts and speed are what there is" "$tests/ranks.sh" "$build" "$empty/work" both
 cannot "usage: fuzz.sh" "$tests/fuzz.sh" "$project"
 cannot "$empty is not the source folder" "$tests/fuzz.sh" "$empty" "$empty/work"
 cannot "usage: fast_math.sh" "$tests/fast_math.sh" --quick

@@ -225,15 +225,18 @@ std::vector<Form> forms_beside(const conformance::UserKernel& user, const runtim
     return forms;
 }
 
-// What is measured together. Each batch after the first has the same kernel once more, for the noise of ratios between them.
-std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
-    constexpr std::size_t most = 60;  // programs; a driver may keep some megabytes of each
+using Batch = std::vector<Form>;
+
+// What is measured together, so many programs or a few more: a driver may keep some megabytes of each. Each batch after the first
+// has the same kernel once more, for the noise of ratios between them.
+constexpr std::size_t usual_batch = 60;
+std::vector<Batch> in_batches(std::vector<Form> forms, std::size_t most = usual_batch) {
     std::stable_sort(forms.begin(), forms.end(), [](const Form& a, const Form& b) {
         return bench::batch_of(a.rung) < bench::batch_of(b.rung);
     });
     const auto strict = std::find_if(forms.begin(), forms.end(),
                                      [](const Form& form) { return form.rung.key() == "strict/float"; });
-    std::vector<std::vector<Form>> batches(1);
+    std::vector<Batch> batches(1);
     for (const Form& form : forms) {
         const bool other = !batches.back().empty() &&
                            bench::batch_of(form.rung) != bench::batch_of(batches.back().back().rung);
@@ -250,15 +253,21 @@ std::vector<std::vector<Form>> in_batches(std::vector<Form> forms) {
     return batches;
 }
 
+// Small enough that each rank has some.
+std::size_t most_of_batch(const Common& common) {
+    constexpr std::size_t least = 8;
+    return std::max(least, usual_batch / static_cast<std::size_t>(common.ranks->size()));
+}
+
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
-                                                         const bench::Session& session,
+                                                         const std::string& build_options,
                                                          const Bench& options) {
     const auto yes_no = [](bool b) { return std::string(b ? "yes" : "no"); };
     return {{"device", d.label()},
             {"platform_version", d.platform_version},
             {"driver_version", d.driver},
             {"opencl_c_version", d.c_version},
-            {"build_options", session.build_options()},
+            {"build_options", build_options},
             {"fp64", yes_no(d.fp64)},
             {"fma", yes_no(d.fma)},
             {"denormals", yes_no(d.denormals)},
@@ -303,6 +312,7 @@ std::vector<bench::EffectCost> selected_programs(const std::string& only) {
 
 // What each effect of a material costs, as a table.
 void run_effects(const Bench& options, Common& common) {
+    common.require_one_process("bench --effects");
     const std::vector<bench::EffectCost> programs = selected_programs(options.only);
     const bool table = !is_standard_output(options.json);
     if (table) require_output();
@@ -326,11 +336,101 @@ void run_effects(const Bench& options, Common& common) {
     json->commit();
 }
 
+// Only the JSON holds the noise of lobes and the times of builds, which take seconds.
+void add_costly(bench::Surroundings& surroundings, const runtime::Program& beside) {
+    surroundings.lobes = bench::lobe_noise();
+    surroundings.builds = bench::build_times(beside);
+    surroundings.instructions = embedded("bench/results/instructions.json");
+}
+
+void add(bench::Session& session, const Batch& batch, const std::string& part, const Progress& progress) {
+    std::size_t built = 0;
+    for (const auto& [function, rung] : batch) {
+        progress(fmt::format("{}building {} {}", part, function->name, rung.key()),
+                 static_cast<double>(built++) / static_cast<double>(batch.size()));
+        session.add(*function, rung);
+    }
+}
+
+// all: with what costs seconds.
+bench::Measurement measure(const Bench& options, const runtime::Device& device,
+                           const bench::SessionOptions& session_options, const std::vector<Batch>& batches,
+                           const std::optional<conformance::UserKernel>& user, bool all,
+                           const Progress& progress) {
+    bench::Measurer measurer(options.repetitions);
+    bench::Surroundings surroundings;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        const std::string part = batches.size() == 1 ? "" : fmt::format("{}/{}: ", i + 1, batches.size());
+        bench::Session session(device, session_options);
+        add(session, batches[i], part, progress);
+        measurer.run(session.entries(), [&](double done) { progress(part + "measuring", done); });
+        if (i > 0) continue;
+        surroundings.context = context(device, session.build_options(), options);
+        if (user) {
+            // Beside a user's function what costs seconds says nothing.
+            surroundings.context.push_back({"kernel", options.user.file});
+            surroundings.context.push_back({"kernel_options", options.user.options});
+        } else if (all) {
+            progress("noise and builds", 0);
+            add_costly(surroundings, session.program());
+        }
+    }
+    return measurer.finish(surroundings);
+}
+
+// Batch by batch, each on one rank. Throws InputError where ranks share a host, whose processor all of them measure or use.
+bench::Measurement measure_by_ranks(const Bench& options, Common& common, const runtime::Device& device,
+                                    const bench::SessionOptions& session_options,
+                                    const std::vector<Batch>& batches, bool all) {
+    if (common.ranks->neighbours() > 1)
+        throw InputError(fmt::format(
+            "clvndf bench on {} ranks of one host: they would disturb each other; one a host is allowed, as "
+            "by mpirun --map-by ppr:1:node",
+            common.ranks->neighbours()));
+    const Progress quiet(true);
+    const auto hire = [&](const runtime::Device& mine) -> runtime::Team::Work {
+        return [&](const std::string& task) {
+            bench::Session session(mine, session_options);
+            add(session, batches.at(std::stoull(task)), "", quiet);
+            bench::Measurer measurer(options.repetitions);
+            measurer.run(session.entries(), [](double) {});
+            return session.build_options() + '\0' + bench::packed(measurer.finish({}));
+        };
+    };
+    runtime::Team team(
+        *common.ranks, {device}, hire,
+        team_options(fmt::format("bench --only '{}' --repetitions {}{}{} of {} batches", options.only,
+                                 options.repetitions, options.quick ? " --quick" : "",
+                                 options.advise ? " --advise" : "", batches.size())));
+    if (!common.leads()) {
+        team.serve();
+        return {};
+    }
+    const Progress progress(common.quiet);
+    std::vector<bench::Measurement> parts;
+    bench::Surroundings surroundings;
+    runtime::Team::Plan plan;
+    plan.tasks = batches.size();
+    plan.take = [&](std::size_t i, const std::string& measured) {
+        const std::size_t end = measured.find('\0');
+        if (i == 0) surroundings.context = context(device, measured.substr(0, end), options);
+        parts.push_back(bench::unpacked(measured.substr(end + 1)));
+    };
+    plan.proceed = [&](std::size_t taken) {
+        progress(team.describe(), static_cast<double>(taken) / static_cast<double>(batches.size()));
+        return true;
+    };
+    team.run(plan);
+    if (all) add_costly(surroundings, bench::Session(device, session_options).program());
+    return bench::merged(parts, surroundings);
+}
+
 void run_bench(Bench options, Common& common) {
+    if (!common.leads()) options.json.clear(), options.report.clear(), options.compare.clear();
     if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
     const Selection selection = parse_only(options.only);
     std::optional<conformance::UserKernel> user;
-    if (!options.user.file.empty()) user.emplace(options.user);
+    if (!options.user.file.empty()) common.require_one_process("bench --kernel"), user.emplace(options.user);
     if (user && !user->ours())
         throw InputError(
             fmt::format("--as {}: clvndf bench times a sampler, a density or a term; name what it is to be",
@@ -364,35 +464,15 @@ void run_bench(Bench options, Common& common) {
         user->evaluator(device);  // says what does not compile, and where
         program = user->program();
     }
-    const std::vector<std::vector<Form>> batches =
-        in_batches(user ? forms_beside(*user, program, device) : selected_forms(device, selection, options));
-    bench::Measurer measurer(options.repetitions);
-    bench::Surroundings surroundings;
-    for (std::size_t i = 0; i < batches.size(); ++i) {
-        const std::string part = batches.size() == 1 ? "" : fmt::format("{}/{}: ", i + 1, batches.size());
-        bench::Session session(device, session_options);
-        std::size_t built = 0;
-        for (const auto& [function, rung] : batches[i]) {
-            progress(fmt::format("{}building {} {}", part, function->name, rung.key()),
-                     static_cast<double>(built++) / static_cast<double>(batches[i].size()));
-            session.add(*function, rung);
-        }
-        measurer.run(session.entries(), [&](double done) { progress(part + "measuring", done); });
-        if (i == 0) surroundings.context = context(device, session, options);
-        if (user && i == 0)
-            for (const auto& [name, value] :
-                 {std::pair("kernel", options.user.file), {"kernel_options", options.user.options}})
-                surroundings.context.push_back({name, value});
-        // Only the JSON holds the noise of lobes and the times of builds, which take seconds; beside a user's function
-        // they say nothing.
-        if (i > 0 || user || !(json || report)) continue;
-        progress("noise and builds", 0);
-        surroundings.lobes = bench::lobe_noise();
-        surroundings.builds = bench::build_times(session.program());
-        surroundings.instructions = embedded("bench/results/instructions.json");
-    }
-    const bench::Measurement measurement = measurer.finish(surroundings);
+    const std::vector<Batch> batches =
+        user ? in_batches(forms_beside(*user, program, device))
+             : in_batches(selected_forms(device, selection, options), most_of_batch(common));
+    const bool all = json || report;
+    const bench::Measurement measurement =
+        common.ranks->size() > 1 ? measure_by_ranks(options, common, device, session_options, batches, all)
+                                 : measure(options, device, session_options, batches, user, all, progress);
     progress.clear();
+    if (!common.leads()) return;
     if (json) json->write(measurement.json), json->commit();
     const bench::Demand demand{options.error, options.front ? Domain::upper : Domain::sphere};
     if (table && options.advise)

@@ -1,11 +1,13 @@
 // clvndf check
-#include <atomic>
 #include <charconv>
+#include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/leftovers.h"
 #include "cli/options.h"
 #include "cli/output_file.h"
@@ -14,10 +16,11 @@
 #include "conformance/judge/answers.h"
 #include "conformance/judge/digest.h"
 #include "conformance/report/page.h"
-#include "conformance/runs/exhaustive.h"
+#include "conformance/runs/exhaustive_checkpoint.h"
 #include "conformance/runs/user_check.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "file.h"
 #include "text.h"
 
 namespace vndf::cli {
@@ -32,12 +35,13 @@ struct Check {
     std::string on = "device";  // whose digest
     bool exhaustive = false;
     double minutes = 0;  // 0: to the end
-    std::string slice = "1/1";
+    std::string slice = "1/1", checkpoint;
     conformance::UserOptions user;  // of --kernel
 };
 
 // One hash a function, or its known answers, and nothing else on the standard output.
 void run_digest(const Check& options, Common& common) {
+    common.require_one_process("check --digest");
     const auto selected = selected_by(options.only);
     conformance::BitsOptions bits;
     bits.math = options.target.math();
@@ -76,8 +80,6 @@ void run_digest(const Check& options, Common& common) {
     put(conformance::format_digests(digests));
 }
 
-std::atomic<bool> interrupted{false};
-
 // "3/10": the third of ten equal parts of a walk that has `most` of them.
 conformance::Slice parse_slice(const std::string& text, std::uint32_t most) {
     const char* const last = text.data() + text.size();
@@ -92,6 +94,38 @@ conformance::Slice parse_slice(const std::string& text, std::uint32_t most) {
         fmt::format("--slice '{}': expected a part I/N with 1 <= I <= N <= {}, as in 3/10", text, most));
 }
 
+// Where a walk that is not done goes on later; nothing without --checkpoint.
+class WalkCheckpoint {
+  public:
+    WalkCheckpoint(const std::string& path, const std::string& run) : path_(path), run_(run) {}
+
+    void resume(conformance::ExhaustiveWalk& walk) {
+        std::error_code none;
+        if (path_.empty() || !std::filesystem::exists(path_, none)) return;
+        before_ = conformance::resume(walk, read_file(path_, most_bytes), run_, path_);
+    }
+    // Of this run and of those that it goes on from.
+    double seconds() const { return before_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+    void write(const conformance::ExhaustiveWalk& walk) {
+        if (path_.empty()) return;
+        OutputFile file(path_);
+        file.write(conformance::checkpoint(walk, run_, seconds()));
+        file.commit();
+        written_ = Clock::now();
+    }
+    void write_sometimes(const conformance::ExhaustiveWalk& walk) {
+        if (Clock::now() - written_ > std::chrono::seconds(10)) write(walk);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::uint64_t most_bytes = 1 << 20;
+
+    std::string path_, run_;
+    Clock::time_point start_ = Clock::now(), written_ = start_;
+    double before_ = 0;
+};
+
 // Ends at the first of: all walked, the time given, an interrupt; and reports in each case.
 void run_exhaustive(const Check& options, Common& common) {
     const auto samplers = conformance::samplers_of(selected_by(options.only));
@@ -99,30 +133,52 @@ void run_exhaustive(const Check& options, Common& common) {
         throw InputError(fmt::format("--only '{}': no sampler, which --exhaustive needs", options.only));
     if (options.target.real() != runtime::Real::f32)
         throw InputError("--exhaustive --real double: only the values of a float can be exhausted");
-    conformance::ExhaustiveOptions walk;
-    walk.slice = parse_slice(options.slice, conformance::exhaustive_parts(samplers));
-    if (options.minutes > 0) walk.seconds = 60 * options.minutes;
+    const runtime::Math math = options.target.math();
+    conformance::ExhaustiveWalk walk(samplers,
+                                     parse_slice(options.slice, conformance::exhaustive_parts(samplers)));
     require_output();
 
-    const runtime::Device device = options.target.choose(common);
+    const std::vector<runtime::Device> devices = options.target.choose_all(common);
+    const std::string what = fmt::format("check --exhaustive --only '{}' --slice {} --math {}", options.only,
+                                         options.slice, to_string(math));
+    WalkCheckpoint checkpoint(options.checkpoint, with_version(what) + ", on " + devices.front().kind());
+    if (common.leads()) checkpoint.resume(walk);
+    const std::uint32_t before = walk.taken();
+    const Interrupt interrupt;
     const Progress progress(common.quiet);
     progress("building the program", 0);
-    const runtime::Program program(device, options.target.math(), runtime::Real::f32,
-                                   conformance::exhaustive_program(samplers));
-    walk.proceed = [&](const std::string& what, double done) {
-        progress(what, done);
-        return !interrupted;
+    const auto hire = [&](const runtime::Device& device) -> runtime::Team::Work {
+        const auto walker = std::make_shared<conformance::ExhaustiveWalker>(
+            walk,
+            runtime::Program(device, math, runtime::Real::f32, conformance::exhaustive_program(samplers)));
+        return [walker](const std::string& piece) {
+            return walker->walk(static_cast<std::uint32_t>(std::stoul(piece)));
+        };
     };
-    // A second interrupt ends the command at once.
-    const auto before = std::signal(SIGINT, [](int number) {
-        interrupted = true;
-        std::signal(number, SIG_DFL);
-    });
-    const auto report = conformance::exhaust(program, samplers, walk);
-    std::signal(SIGINT, before);
+    runtime::Team team(*common.ranks, devices, hire, team_options(what));
+    if (!common.leads()) return team.serve();
+    const auto start = std::chrono::steady_clock::now();
+    runtime::Team::Plan plan;
+    plan.tasks = walk.pieces() - before;
+    plan.task = [&](std::size_t i) { return std::to_string(before + i); };
+    plan.take = [&](std::size_t, const std::string& walked) {
+        walk.take(walked);
+        checkpoint.write_sometimes(walk);
+    };
+    plan.proceed = [&](std::size_t) {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+        const double time = options.minutes > 0 ? spent.count() / (60 * options.minutes) : 0;
+        progress(fmt::format("{:.3g} inputs", static_cast<double>(walk.report().inputs)),
+                 std::max(walk.taken() / static_cast<double>(walk.pieces()), std::min(time, 1.0)));
+        return !interrupt.asked() && time < 1;
+    };
+    team.run(plan);
     progress.clear();
+    checkpoint.write(walk);
+    conformance::ExhaustiveReport report = walk.report();
+    report.seconds = checkpoint.seconds();
     put(conformance::format_table(report));
-    common.exit_status = !report.passed() ? 1 : interrupted ? 128 + SIGINT : 0;
+    common.exit_status = !report.passed() ? 1 : interrupt.asked() ? 128 + SIGINT : 0;
 }
 
 // The options that name this user's function, for clvndf eval...
@@ -191,9 +247,47 @@ class Page {
     OutputFile file_;
 };
 
-void run_check(const Check& options, Common& common) {
+// The functions, by every device of every rank; of a rank that does not lead nothing.
+std::optional<conformance::Report> check_together(const Check& options, const Common& common,
+                                                  const std::vector<const Function*>& selected,
+                                                  const conformance::CheckOptions& check) {
+    const runtime::Math math = options.target.math();
+    const runtime::Real real = options.target.real();
+    runtime::ProgramOptions program;
+    if (!options.only.empty()) program.functions = conformance::needed(selected);
+    conformance::CheckRun run(math, real, selected, check);
+    const auto hire = [&](const runtime::Device& device) -> runtime::Team::Work {
+        const auto evaluator = std::make_shared<runtime::DeviceEvaluator>(device, math, real, program);
+        return [&, evaluator](const std::string& piece) { return run.judge(*evaluator, std::stoull(piece)); };
+    };
+    runtime::Team team(*common.ranks, options.target.choose_all(common), hire,
+                       team_options(fmt::format("check --only '{}' --seed {} --points {}{}{}{}", options.only,
+                                                common.seed, options.points, options.quick ? " --quick" : "",
+                                                options.all ? " --all" : "", options.target.in_words())));
+    if (!common.leads()) {
+        team.serve();
+        return std::nullopt;
+    }
+    runtime::Team::Plan plan;
+    plan.tasks = run.pieces();
+    plan.take = [&](std::size_t, const std::string& judged) { run.take(judged); };
+    team.run(plan);
+    return run.finish();
+}
+
+conformance::Report check_user(const conformance::UserKernel& user, const Check& options,
+                               const Common& common, const conformance::CheckOptions& check) {
+    common.require_one_process("check --kernel");
+    const runtime::Device device = options.target.choose(common);
+    runtime::DeviceEvaluator evaluator = user.evaluator(device, options.target.real());
+    return conformance::check_user_kernel(user, evaluator, check);
+}
+
+void run_check(Check options, Common& common) {
     if (options.exhaustive) return run_exhaustive(options, common);
     if (options.digest) return run_digest(options, common);
+    const bool draws = !options.report.empty();
+    if (!common.leads()) options.json.clear(), options.junit.clear(), options.report.clear();
     std::optional<conformance::UserKernel> user;
     if (!options.user.file.empty()) user.emplace(options.user);
     if (user && !user->is_bsdf() && !user->ours())
@@ -206,7 +300,6 @@ void run_check(const Check& options, Common& common) {
     require_distinct(outputs);
     const bool table = !is_standard_output(options.json) && !is_standard_output(options.junit);
     if (table) require_output();
-    const runtime::Math math = options.target.math();
     // Opened before the work, so that a path that cannot be written costs no time.
     std::optional<OutputFile> json, junit;
     if (!options.json.empty()) json.emplace(options.json);
@@ -214,29 +307,24 @@ void run_check(const Check& options, Common& common) {
     std::optional<Page> page;
     if (!options.report.empty()) page.emplace(options, common);
 
-    const runtime::Device device = options.target.choose(common);
-    runtime::ProgramOptions program;
-    if (!options.only.empty()) program.functions = conformance::needed(selected);
     const Progress progress(common.quiet);
     progress("building the program", 0);
-    runtime::DeviceEvaluator evaluator =
-        user ? user->evaluator(device, options.target.real())
-             : runtime::DeviceEvaluator(device, math, options.target.real(), program);
     conformance::CheckOptions check;
     check.seed = common.seed;
     check.quick = options.quick;
     check.random_points = options.points;
-    if (page) check.pictures = options.all ? conformance::Pictures::all : conformance::Pictures::failed;
+    if (draws) check.pictures = options.all ? conformance::Pictures::all : conformance::Pictures::failed;
     check.progress = [&](const std::string& what, double done) { progress(what, done); };
-    const conformance::Report report = user ? conformance::check_user_kernel(*user, evaluator, check)
-                                            : conformance::check(evaluator, math, selected, check);
+    const std::optional<conformance::Report> report =
+        user ? check_user(*user, options, common, check) : check_together(options, common, selected, check);
     progress.clear();
+    if (!report) return;
 
-    if (json) json->write(conformance::format_json(report)), json->commit();
-    if (junit) junit->write(conformance::format_junit(report)), junit->commit();
-    if (page) page->write(report);
-    if (table) put(conformance::format_table(report, command_of_eval(options)));
-    common.exit_status = report.passed() ? 0 : 1;
+    if (json) json->write(conformance::format_json(*report)), json->commit();
+    if (junit) junit->write(conformance::format_junit(*report)), junit->commit();
+    if (page) page->write(*report);
+    if (table) put(conformance::format_table(*report, command_of_eval(options)));
+    common.exit_status = report->passed() ? 0 : 1;
 }
 
 // What is judged in place of our functions.
@@ -274,7 +362,7 @@ void add_check(CLI::App& app, Common& common) {
     const auto options = std::make_shared<Check>();
     CLI::App* command = app.add_subcommand(
         "check", "conformance of a device: every function against the reference; exit status 1 if one fails");
-    options->target.add_to(*command);
+    options->target.add_to(*command, true);
     add_only(*command, options->only);
     CLI::Option* quick =
         command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");
@@ -327,6 +415,11 @@ void add_check(CLI::App& app, Common& common) {
     add_number(*command, "--minutes", options->minutes, 0.001, 1e6, "end the exhaustion after this time")
         ->needs(exhaustive);
     command->add_option("--slice", options->slice, "this part of the exhaustion only: I/N, the I-th of N")
+        ->needs(exhaustive);
+    command
+        ->add_option(
+            "--checkpoint", options->checkpoint,
+            "a file that holds how far the exhaustion has come: where there is one, it goes on from there")
         ->needs(exhaustive);
     add_user(*command, options);
     command->callback(

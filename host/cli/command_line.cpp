@@ -1,5 +1,8 @@
 #include "cli/command_line.h"
 
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -14,6 +17,8 @@
 #include "cli/options.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "hash.h"
+#include "runtime/sources.h"
 #include "text.h"
 
 namespace vndf::cli {
@@ -37,8 +42,8 @@ runtime::Real real_named(const std::string& name) {
     return name == "float" ? runtime::Real::f32 : runtime::Real::f64;
 }
 
-void Target::add_to(CLI::App& command) {
-    add_device(command, device);
+void Target::add_to(CLI::App& command, bool several) {
+    add_device(command, device, several);
     add_switches(command, math_name, real_name);
 }
 
@@ -59,10 +64,65 @@ runtime::Device Target::choose(const Common& common) const {
     return choice.device;
 }
 
+std::vector<runtime::Device> Target::choose_all(const Common& common) const {
+    if (!runtime::wants_all(device)) return {choose(common)};
+    const std::vector<runtime::Device> all = runtime::choose_devices(runtime::devices(), device);
+    end_where_drivers_fail();
+    // In turns; where there are more ranks than devices, several have the same one.
+    std::vector<runtime::Device> mine;
+    for (std::size_t i = static_cast<std::size_t>(common.ranks->place()) % all.size(); i < all.size();
+         i += static_cast<std::size_t>(common.ranks->neighbours()))
+        mine.push_back(all[i]);
+    return mine;
+}
+
+void Common::require_one_process(const std::string& what) const {
+    if (ranks->size() > 1)
+        throw InputError(
+            fmt::format("clvndf {} is done by one process, and mpirun started {}", what, ranks->size()));
+}
+
+namespace {
+
+// How long a rank may be silent.
+std::chrono::duration<double> patience() {
+    const char* const text = std::getenv("CLVNDF_RANK_TIMEOUT");
+    if (!text) return runtime::Team::Options().patience;
+    double seconds = 0;
+    const auto [end, error] = std::from_chars(text, text + std::strlen(text), seconds);
+    if (error != std::errc() || *end != '\0' || !(seconds >= 1 && seconds <= 1e6))
+        throw InputError(fmt::format("CLVNDF_RANK_TIMEOUT '{}': expected seconds, from 1 to 1e6", text));
+    return std::chrono::duration<double>(seconds);
+}
+
+// Of all kernels in this binary.
+std::uint64_t kernels_hash() {
+    std::uint64_t hash = fnv1a("");
+    for (const runtime::SourceFile& file : runtime::embedded_sources())
+        hash = fnv1a(file.text, fnv1a(file.path, hash));
+    return hash;
+}
+
+}  // namespace
+
+std::string with_version(const std::string& what) {
+    return fmt::format("clvndf " CLVNDF_VERSION ", kernels {:016x}, {}", kernels_hash(), what);
+}
+
+runtime::Team::Options team_options(const std::string& what) {
+    runtime::Team::Options options;
+    options.identity = with_version(what);
+    options.patience = patience();
+    options.lost = [](const std::string& text) { remark("clvndf: {}\n", text); };
+    return options;
+}
+
 std::string Target::in_words() const {
     const Target usual;
     std::string words;
-    if (!device.empty()) words += " --device " + quoted_for_shell(device);
+    // Of several devices, which are alike, any will do.
+    const std::string one = runtime::one_of_all(device);
+    if (!one.empty()) words += " --device " + quoted_for_shell(one);
     if (math_name != usual.math_name) words += " --math " + math_name;
     if (real_name != usual.real_name) words += " --real " + real_name;
     return words;
@@ -156,9 +216,10 @@ void refuse_empty_values(CLI::App& app) {
 
 }  // namespace
 
-CommandLine::CommandLine()
+CommandLine::CommandLine(runtime::Ranks* ranks)
     : app_("clvndf: samplers and densities of the GGX and Beckmann distributions of visible normals",
            "clvndf") {
+    common_.ranks = ranks ? ranks : &alone_.emplace();
     app_.option_defaults()->disable_flag_override();  // --json=a.json is no flag
     app_.set_version_flag("--version", "clvndf " CLVNDF_VERSION);
     app_.require_subcommand(1);
@@ -196,6 +257,10 @@ void CommandLine::parse(int argc, const char* const* argv) {
 }
 
 int CommandLine::run() {
+    if (!common_.leads()) common_.quiet = true;
+    static const std::set<std::string> shared = {"check", "bench", "render"};
+    for (const CLI::App* command : app_.get_subcommands())
+        if (!shared.contains(command->get_name())) common_.require_one_process(command->get_name());
     common_.action();
     flush_output();
     return common_.exit_status;

@@ -1,13 +1,16 @@
 // The command line as a whole: what the arguments ask for, apart from doing it.
 #pragma once
 
+#include <optional>
+
 #include "cli/commands.h"
 
 namespace vndf::cli {
 
 class CommandLine {
   public:
-    CommandLine();
+    // ranks: those of this run, if they are several processes.
+    explicit CommandLine(runtime::Ranks* ranks = nullptr);
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
@@ -22,6 +25,7 @@ class CommandLine {
     CLI::App& app() { return app_; }
 
   private:
+    std::optional<runtime::Ranks> alone_;
     CLI::App app_;
     Common common_;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <optional>
 #include <string>
 
 #include <fcntl.h>
@@ -10,6 +11,7 @@
 #include "cli/driver_failure.h"
 #include "cli/streams.h"
 #include "error.h"
+#include "runtime/team.h"
 
 namespace {
 
@@ -28,24 +30,49 @@ std::string one_line(std::string text) {
     return text;
 }
 
+// What there is to say of an error, in the words of the leading rank.
+void say(vndf::runtime::Ranks& ranks, const vndf::Error& error) {
+    if (ranks.leads())
+        vndf::cli::remark("clvndf: {}\n", error.what());
+    else
+        vndf::runtime::report_failure(ranks, error);
+}
+
+int run(vndf::runtime::Ranks& ranks, int argc, char** argv, bool& lost) {
+    try {
+        vndf::cli::CommandLine line(&ranks);
+        line.parse(argc, argv);
+        return line.run();
+    } catch (const vndf::InputError& error) {
+        say(ranks, vndf::InputError(one_line(error.what())));
+        return error.exit_status();
+    } catch (const vndf::Error& error) {
+        lost = dynamic_cast<const vndf::runtime::LostRank*>(&error) != nullptr;
+        say(ranks, error);
+        return error.exit_status();
+    } catch (const std::exception& error) {
+        say(ranks, vndf::DeviceError(error.what()));
+        return 3;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     occupy_standard_streams();
     vndf::cli::end_where_drivers_fail();
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of file sizes then fails as on a full disk
+    std::optional<vndf::runtime::Ranks> ranks;
     try {
-        vndf::cli::CommandLine line;
-        line.parse(argc, argv);
-        return line.run();
-    } catch (const vndf::InputError& error) {
-        vndf::cli::remark("clvndf: {}\n", one_line(error.what()));
-        return error.exit_status();
+        ranks.emplace();
     } catch (const vndf::Error& error) {
         vndf::cli::remark("clvndf: {}\n", error.what());
         return error.exit_status();
-    } catch (const std::exception& error) {
-        vndf::cli::remark("clvndf: {}\n", error.what());
-        return 3;
     }
+    if (!ranks->leads()) vndf::cli::silence_output();
+    bool lost = false;
+    const int status = run(*ranks, argc, argv, lost);
+    if (ranks->leads()) vndf::runtime::send_home(*ranks);
+    ranks->leave(status, lost);
+    return ranks->leads() ? status : 0;  // mpirun ends with the first that is not 0
 }

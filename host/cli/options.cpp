@@ -4,11 +4,13 @@
 
 namespace vndf::cli {
 
-CLI::Option* add_device(CLI::App& command, std::string& device) {
-    return command.add_option(
-        "--device", device,
+CLI::Option* add_device(CLI::App& command, std::string& device, bool several) {
+    std::string description =
         "first device whose platform or device name contains this; with #N behind it the N-th of them\n"
-        "(default: $CLVNDF_DEVICE, else PoCL's CPU device, else the first device with a compiler)");
+        "(default: $CLVNDF_DEVICE, else PoCL's CPU device, else the first device with a compiler)";
+    if (several)
+        description += ";\nall, or all:NAME: every device, or all of that name, which share the work";
+    return command.add_option("--device", device, description);
 }
 
 CLI::Option* add_only(CLI::App& command, std::string& pattern) {

@@ -15,7 +15,8 @@
 
 namespace vndf::cli {
 
-CLI::Option* add_device(CLI::App& command, std::string& device);
+// several: of a command that takes --device all.
+CLI::Option* add_device(CLI::App& command, std::string& device, bool several = false);
 
 // --only; `pattern` is set to what was given, empty without the option.
 CLI::Option* add_only(CLI::App& command, std::string& pattern);

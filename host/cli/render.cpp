@@ -2,7 +2,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include <fmt/format.h>
@@ -21,6 +23,7 @@
 #include "render/effects.h"
 #include "render/explain.h"
 #include "render/image.h"
+#include "render/shared_film.h"
 
 namespace vndf::cli {
 namespace {
@@ -90,28 +93,29 @@ bool worth_a_look(std::uint64_t samples, std::uint64_t looked_at) {
 // Where a rendering that is not done goes on later; nothing without --checkpoint.
 class Checkpoint {
   public:
-    Checkpoint(const std::string& path, const render::Scene& scene, const render::Settings& settings,
-               const std::string& program)
-        : path_(path) {
-        if (!path.empty()) fingerprint_ = render::fingerprint(scene, settings, program);
-    }
-    // True if there is one.
-    bool resume(render::Wavefront& wavefront) const {
+    Checkpoint(const std::string& path, const std::string& fingerprint)
+        : path_(path), fingerprint_(fingerprint) {}
+
+    const std::string& fingerprint() const { return fingerprint_; }
+    // What is there, if anything.
+    std::optional<render::State> state() const {
         std::error_code none;
-        if (path_.empty() || !std::filesystem::exists(path_, none)) return false;
+        if (path_.empty() || !std::filesystem::exists(path_, none)) return std::nullopt;
         const std::string bytes = read_file(path_, std::uint64_t{1} << 36);
-        wavefront.resume(render::state_of(bytes, fingerprint_, path_));
-        return true;
+        return render::state_of(bytes, fingerprint_, path_);
     }
-    void write(render::Wavefront& wavefront) {
+    // of: a Wavefront or a SharedFilm.
+    template <class Film>
+    void write(Film& of) {
         if (path_.empty()) return;
         OutputFile file(path_);
-        file.write(render::checkpoint(wavefront.state(), fingerprint_));
+        file.write(render::checkpoint(of.state(), fingerprint_));
         file.commit();
         written_ = Clock::now();
     }
-    void write_sometimes(render::Wavefront& wavefront) {
-        if (Clock::now() - written_ > std::chrono::seconds(30)) write(wavefront);
+    template <class Film>
+    void write_sometimes(Film& of) {
+        if (Clock::now() - written_ > std::chrono::seconds(30)) write(of);
     }
 
   private:
@@ -119,16 +123,39 @@ class Checkpoint {
     Clock::time_point written_ = Clock::now();
 };
 
-// What a run has done by itself, beside what a checkpoint had.
-struct Traced {
-    double first = 0;  // seconds until every pixel had a sample
-    double samples_per_second = 0;
+// Everything that is known before the first ray.
+struct Work {
+    const Render& r;
+    const Common& common;
+    const render::Scene& scene;
+    const render::Tree& tree;
+    const render::Settings& settings;
+    const render::Switches& switches;
+    const Interrupt& interrupt;
+    Clock::time_point start;
+
+    double since_start() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+    runtime::Math math() const { return math_named(r.math); }
+    std::uint64_t pixels() const { return std::uint64_t{settings.width} * settings.height; }
 };
 
-Traced trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels, const Interrupt& interrupt,
-             const Common& common, Checkpoint& checkpoint) {
-    const Progress progress(common.quiet);
-    const Goal goal(r, pixels);
+void show(const Progress& progress, const Goal& goal, std::uint64_t samples, double per_second,
+          double error) {
+    const double share = goal.share(samples, error), elapsed = goal.elapsed();
+    progress(fmt::format("{:.1f} Msamples/s, {:.0f} s left, error {}", per_second / 1e6,
+                         share > 0 ? elapsed * (1 - share) / share : 0,
+                         error < 1 ? fmt::format("{:.2g}", error) : "not yet known"),
+             share);
+}
+
+// By one device of this process.
+Traced trace(const Work& work, const runtime::Device& device, Checkpoint& checkpoint) {
+    const Render& r = work.r;
+    const auto stages = render::device_stages(device, work.math(), work.switches);
+    render::Wavefront wavefront(*stages, work.scene, work.tree, work.settings);
+    if (const auto state = checkpoint.state()) wavefront.resume(*state);
+    const Progress progress(work.common.quiet);
+    const Goal goal(r, work.pixels());
     const std::uint64_t before = wavefront.pixel_samples();
     Traced traced;
     std::uint64_t looked_at = 0;
@@ -137,16 +164,12 @@ Traced trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels
         return static_cast<double>(wavefront.pixel_samples() - before) / goal.elapsed();
     };
     const auto stop = [&] {
-        const double share = goal.share(wavefront.pixel_samples(), error), elapsed = goal.elapsed();
-        progress(fmt::format("{:.1f} Msamples/s, {:.0f} s left, error {}", speed() / 1e6,
-                             share > 0 ? elapsed * (1 - share) / share : 0,
-                             error < 1 ? fmt::format("{:.2g}", error) : "not yet known"),
-                 share);
-        return interrupt.asked() || (goal.late() && wavefront.samples() > 0);
+        show(progress, goal, wavefront.pixel_samples(), speed(), error);
+        return work.interrupt.asked() || (goal.late() && wavefront.samples() > 0);
     };
     while (!goal.bounded() || wavefront.samples() < r.spp) {
         const bool whole = wavefront.add_sample(stop);
-        if (traced.first == 0) traced.first = goal.elapsed();
+        if (traced.first == 0) traced.first = work.since_start();
         if (!whole) break;
         checkpoint.write_sometimes(wavefront);
         if (worth_a_look(wavefront.samples(), looked_at)) {
@@ -157,10 +180,142 @@ Traced trace(const Render& r, render::Wavefront& wavefront, std::uint64_t pixels
     }
     traced.samples_per_second = speed();
     checkpoint.write(wavefront);
-    if (interrupt.asked() && !common.quiet) {
-        progress.clear();
-        remark("clvndf: interrupted; {} holds what is there\n", r.output);
+    traced.image = wavefront.image();
+    traced.device = stages->describe();
+    traced.memory = wavefront.memory();
+    traced.lamps = wavefront.lamps();
+    return traced;
+}
+
+// A device of several: the stages and the paths in flight.
+class Tracer {
+  public:
+    Tracer(const Work& work, const runtime::Device& device)
+        : stages_(render::device_stages(device, work.math(), work.switches)),
+          wavefront_(*stages_, work.scene, work.tree, work.settings) {}
+
+    std::string trace(const std::string& task) { return render::trace_part(wavefront_, task); }
+    void describe(Traced& traced) const {
+        traced.device = stages_->describe();
+        traced.memory = wavefront_.memory();
+        traced.lamps = wavefront_.lamps();
     }
+
+  private:
+    std::unique_ptr<render::Stages> stages_;
+    render::Wavefront wavefront_;
+};
+
+// When the error is looked at next by who has looked at it after so many samples.
+std::uint64_t next_look(std::uint64_t looked_at) {
+    return std::max<std::uint64_t>(16, looked_at + looked_at / 4);
+}
+
+// By every device of every rank, of which this is the one that leads; to the bits that one device gives.
+class TraceTogether {
+  public:
+    TraceTogether(const Work& work, runtime::Team& team, render::State from, Checkpoint& checkpoint)
+        : work_(work),
+          team_(team),
+          checkpoint_(checkpoint),
+          goal_(work.r, work.pixels()),
+          film_(work.settings, std::move(from), team.size()),
+          before_(samples()) {}
+
+    Traced run() {
+        const Render& r = work_.r;
+        std::uint64_t looked_at = 0;
+        for (bool more = true; more;) {
+            std::uint64_t end = goal_.bounded() ? r.spp : std::numeric_limits<std::uint64_t>::max();
+            // Only who is to stop at an error has to wait for all to look at it.
+            if (r.target_error > 0) end = std::max(next_look(looked_at), film_.state().samples + 1);
+            more = trace_up_to(end);
+            if (!more || r.target_error == 0) break;
+            looked_at = film_.state().samples;
+            error_ = render::image_of(film_.state(), work_.settings).error;
+            more = error_ > r.target_error;
+        }
+        traced_.samples_per_second = speed();
+        checkpoint_.write(film_);
+        traced_.image = render::image_of(film_.state(), work_.settings);
+        return std::move(traced_);
+    }
+
+  private:
+    // False if it was stopped before.
+    bool trace_up_to(std::uint64_t end) {
+        const std::size_t first = task_;
+        runtime::Team::Plan plan;
+        plan.window = film_.parts();
+        plan.task = [&](std::size_t i) { return film_.task(first + i, end, samples_of_round()); };
+        plan.take = [&](std::size_t, const std::string& traced) {
+            if (!film_.take(task_++, traced)) return;
+            if (traced_.first == 0) traced_.first = work_.since_start();
+            checkpoint_.write_sometimes(film_);
+        };
+        bool stopped = false;
+        plan.proceed = [&](std::size_t) {
+            show(progress_, goal_, samples(), speed(), error_);
+            stopped = work_.interrupt.asked() || (goal_.late() && film_.state().samples > 0);
+            return !stopped;
+        };
+        team_.run(plan);
+        return !stopped;
+    }
+
+    std::uint64_t samples() const { return film_.state().samples * work_.pixels() + film_.state().ahead; }
+    double speed() const { return static_cast<double>(samples() - before_) / goal_.elapsed(); }
+    // So many that a task takes long enough to be worth its way, and that no round outlasts the time that is left.
+    std::uint64_t samples_of_round() const {
+        constexpr double seconds_of_task = 0.2;
+        const double left = work_.r.seconds > 0 ? std::max(0.0, work_.r.seconds - goal_.elapsed()) : 1e9;
+        const double of_member = speed() / static_cast<double>(team_.size()) / film_.part_pixels();
+        const double of_all = speed() / static_cast<double>(work_.pixels());
+        return static_cast<std::uint64_t>(
+            std::clamp(std::min(seconds_of_task * of_member, left / 2 * of_all), 1.0, 1024.0));
+    }
+
+    const Work& work_;
+    runtime::Team& team_;
+    Checkpoint& checkpoint_;
+    Goal goal_;
+    render::SharedFilm film_;
+    std::uint64_t before_;
+    std::size_t task_ = 0;  // taken
+    double error_ = 1;
+    Progress progress_{work_.common.quiet};
+    Traced traced_;
+};
+
+// By the team of this rank and its devices; of a rank that does not lead nothing.
+std::optional<Traced> trace_by_team(const Work& work, const std::vector<runtime::Device>& devices,
+                                    Checkpoint& checkpoint) {
+    std::mutex mutex;
+    Traced described;
+    const auto hire = [&](const runtime::Device& device) -> runtime::Team::Work {
+        const auto tracer = std::make_shared<Tracer>(work, device);
+        const std::lock_guard lock(mutex);
+        tracer->describe(described);
+        return [tracer](const std::string& task) { return tracer->trace(task); };
+    };
+    runtime::Team::Options options = team_options("render: " + checkpoint.fingerprint());
+    // Strict results are the same on any device, unless it takes subnormal numbers for 0.
+    options.alike = work.math() != runtime::Math::strict ||
+                    std::any_of(devices.begin(), devices.end(), [](const auto& d) { return !d.denormals; });
+    runtime::Team team(*work.common.ranks, devices, hire, options);
+    if (!work.common.leads()) {
+        team.serve();
+        return std::nullopt;
+    }
+    const std::size_t film = VNDF_FILM_PLANES * (work.pixels() + 1);
+    const auto state = checkpoint.state();
+    Traced traced =
+        TraceTogether(work, team, state ? *state : render::State{0, 0, std::vector<float>(film)}, checkpoint)
+            .run();
+    const std::lock_guard lock(mutex);
+    traced.device = fmt::format("{} ({})", described.device, team.describe());
+    traced.memory = described.memory;
+    traced.lamps = described.lamps;
     return traced;
 }
 
@@ -200,14 +355,14 @@ void warn(const ShownScene& shown, const Common& common) {
 render::Metadata metadata(const Reported& r) {
     return {{"software", "clvndf " CLVNDF_VERSION},
             {"scene", r.shown.scene.name},
-            {"samples per pixel", fmt::format("{:.6g}", r.image.samples)},
-            {"estimated error", fmt::format("{:.3g}", r.image.error)},
+            {"samples per pixel", fmt::format("{:.6g}", r.traced.image.samples)},
+            {"estimated error", fmt::format("{:.3g}", r.traced.image.error)},
             {"seed", fmt::format("{}", r.settings.seed)},
             {"random numbers", r.choices.random},
             {"switches", r.switches.materials},
             {"math", r.math},
             {"longest path", fmt::format("{} surfaces", r.settings.max_bounces)},
-            {"device", r.device},
+            {"device", r.traced.device},
             {"seconds", fmt::format("{:.2f}", r.seconds)}};
 }
 
@@ -217,14 +372,15 @@ double stops_of(const Render& r, const render::Image& image) {
     return r.scene.file.empty() ? 0 : render::fitting_stops(image);
 }
 
-void say_result(const Reported& r, const std::string& output, Common& common) {
-    const render::Image& image = r.image;
+void say_result(const Reported& r, const std::string& output, bool interrupted, Common& common) {
+    const render::Image& image = r.traced.image;
     if (!common.quiet)
         remark("{}: {} x {}, {:.6g} samples per pixel, {:.1f} s, error {:.2g}{}\n", output, image.width,
                image.height, image.samples, r.seconds, image.error,
                r.stops == 0 || !output.ends_with(".png")
                    ? ""
                    : fmt::format(", exposed by {:+.1f} stops", r.stops));
+    if (interrupted && !common.quiet) remark("clvndf: interrupted; {} holds what is there\n", output);
     if (image.bad_pixels == 0) return;
     remark("clvndf: {} samples in {} pixels were no finite numbers and are left out\n", image.bad_samples,
            image.bad_pixels);
@@ -233,7 +389,6 @@ void say_result(const Reported& r, const std::string& output, Common& common) {
 
 void run(const Render& r, Common& common) {
     const Clock::time_point start = Clock::now();
-    const auto since = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     require_consistent(r);
     render::require_image_name(r.output);
     require_distinct({{"--output", r.output}, {"--report", r.report}, {"--checkpoint", r.checkpoint}},
@@ -245,48 +400,51 @@ void run(const Render& r, Common& common) {
     const std::vector<render::Effect> effects = render::effects_for(scene, r.effects);
     const render::Switches switches = render::switches(scene, effects, choices);
     const runtime::Math math = math_named(r.math);
-    const runtime::Device device = [&] {
+    const std::vector<runtime::Device> devices = [&] {
         Target target;
         target.device = r.device;
-        return target.choose(common);
+        return target.choose_all(common);
     }();
-    OutputFile file(r.output);
-    std::optional<OutputFile> report;
-    if (!r.report.empty()) report.emplace(r.report);
+    const bool alone = common.ranks->size() == 1 && devices.size() == 1;
+    std::optional<OutputFile> file, report;
+    if (common.leads()) file.emplace(r.output);
+    if (common.leads() && !r.report.empty()) report.emplace(r.report);
     const Interrupt interrupt;
     const render::Tree tree = render::build_tree(scene);
     warn(shown, common);
-    const render::Explained explained{device, math, scene, tree, effects, choices, settings};
-    if (r.explain) put(render::explanation(explained));
-    if (r.effect_costs) put(render::effect_costs(explained));
-    const auto stages = render::device_stages(device, math, switches);
-    render::Wavefront wavefront(*stages, scene, tree, settings);
-    Checkpoint checkpoint(r.checkpoint, scene, settings, switches.materials + ' ' + r.math);
-    checkpoint.resume(wavefront);
-    const double ready = since();
-    const Traced traced =
-        trace(r, wavefront, std::uint64_t{settings.width} * settings.height, interrupt, common, checkpoint);
+    const render::Explained explained{devices.front(), math, scene, tree, effects, choices, settings};
+    if (r.explain && common.leads()) put(render::explanation(explained));
+    if (r.effect_costs && common.leads()) put(render::effect_costs(explained));
+    const Work work{r, common, scene, tree, settings, switches, interrupt, start};
+    // Long to make of large scenes, so for who needs it alone.
+    const std::string fingerprint =
+        alone && r.checkpoint.empty()
+            ? ""
+            : render::fingerprint(scene, settings, switches.materials + ' ' + r.math);
+    Checkpoint checkpoint(common.leads() ? r.checkpoint : "", fingerprint);
+    std::optional<Traced> traced;
+    if (alone)
+        traced = trace(work, devices.front(), checkpoint);
+    else
+        traced = trace_by_team(work, devices, checkpoint);
+    if (!traced) return;
 
-    const render::Image image = wavefront.image();
     const Reported reported{r.scene,
                             shown,
                             effects,
                             choices,
                             switches,
                             settings,
-                            wavefront,
-                            image,
-                            stages->describe(),
+                            *traced,
                             r.math,
-                            since(),
-                            ready + traced.first,
-                            stops_of(r, image),
-                            traced.samples_per_second};
-    file.write(render::encoded(image, r.output, metadata(reported), reported.stops));
+                            work.since_start(),
+                            traced->first,
+                            stops_of(r, traced->image)};
+    file->write(render::encoded(traced->image, r.output, metadata(reported), reported.stops));
     if (report) report->write(render_report(reported));
-    file.commit();
+    file->commit();
     if (report) report->commit();
-    say_result(reported, r.output, common);
+    say_result(reported, r.output, interrupt.asked(), common);
 }
 
 }  // namespace
@@ -364,7 +522,7 @@ void add_render(CLI::App& app, Common& common) {
         ->excludes(sky);
     add_number(*command, "--env-rotation", r->scene.rotation, -3600.0f, 3600.0f,
                "degrees by which it is turned, counterclockwise seen from above");
-    add_device(*command, r->device);
+    add_device(*command, r->device, true);
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }
 

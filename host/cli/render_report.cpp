@@ -13,19 +13,20 @@ std::string render_report(const Reported& r) {
     for (const auto& [text, count] : r.shown.warnings) warnings.push_back({{"text", text}, {"count", count}});
     std::size_t texels = 0;
     for (const render::Bitmap& b : scene.bitmaps) texels += b.texels.size();
-    const auto& memory = r.wavefront.memory();
+    const auto& memory = r.traced.memory;
+    const render::Image& image = r.traced.image;
     const Json report{{"software", "clvndf " CLVNDF_VERSION},
                       {"scene", scene.name},
                       {"file", r.options.file},
                       {"environment", r.options.environment},
-                      {"width", r.image.width},
-                      {"height", r.image.height},
-                      {"samples_per_pixel", r.image.samples},
-                      {"error", r.image.error},
+                      {"width", image.width},
+                      {"height", image.height},
+                      {"samples_per_pixel", image.samples},
+                      {"error", image.error},
                       {"seconds", r.seconds},
                       {"seconds_to_first_sample", r.first},
-                      {"samples_per_second", r.samples_per_second},
-                      {"bad_samples", r.image.bad_samples},
+                      {"samples_per_second", r.traced.samples_per_second},
+                      {"bad_samples", image.bad_samples},
                       {"stops", r.stops},
                       {"triangles", scene.triangles.size()},
                       {"vertices", scene.vertices.size()},
@@ -33,7 +34,7 @@ std::string render_report(const Reported& r) {
                       {"textures", scene.textures.size()},
                       {"texels", texels},
                       {"lights", scene.lights.size()},
-                      {"lamps", r.wavefront.lamps()},
+                      {"lamps", r.traced.lamps},
                       {"memory",
                        {{"scene", memory.scene},
                         {"tree", memory.tree},
@@ -56,7 +57,7 @@ std::string render_report(const Reported& r) {
                       {"max_bounces", r.settings.max_bounces},
                       {"switches", r.switches.materials},
                       {"math", r.math},
-                      {"device", r.device},
+                      {"device", r.traced.device},
                       {"warnings", warnings}};
     return report.dump(1) + '\n';
 }

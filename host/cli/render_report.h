@@ -9,6 +9,16 @@
 
 namespace vndf::cli {
 
+// What a run has done by itself, beside what a checkpoint had, and what there is now.
+struct Traced {
+    double first = 0;  // seconds until every pixel had a sample
+    double samples_per_second = 0;
+    render::Image image = {};
+    std::string device = {};
+    render::Wavefront::Memory memory = {};  // of one device
+    std::uint32_t lamps = 0;
+};
+
 struct Reported {
     const SceneOptions& options;
     const ShownScene& shown;
@@ -16,12 +26,10 @@ struct Reported {
     const render::Choices& choices;
     const render::Switches& switches;
     const render::Settings& settings;
-    const render::Wavefront& wavefront;
-    const render::Image& image;
-    std::string device, math;
+    const Traced& traced;
+    std::string math;
     double seconds, first;  // since the command began: now, and when every pixel had a sample
     double stops;           // of the PNG
-    double samples_per_second;
 };
 
 std::string render_report(const Reported& r);

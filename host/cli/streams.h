@@ -22,6 +22,9 @@ void flush_output();
 // Throws InputError if the standard output is closed: before the work whose result it is to take.
 void require_output();
 
+// What is printed from now on goes nowhere: of a rank that does not lead.
+void silence_output();
+
 // Tells somebody who may be there something on stderr; if nobody can read it, nothing is lost.
 void remark(std::string_view text);
 

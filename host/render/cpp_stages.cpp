@@ -41,8 +41,8 @@ class CppStages final : public Stages {
         buffers_.emplace_back(std::max<std::size_t>(1, (bytes + 3) / 4), 0.0f);
         return buffers_.size() - 1;
     }
-    void write(Buffer to, const void* from, std::size_t bytes) override {
-        std::memcpy(buffers_[to].data(), from, bytes);
+    void write(Buffer to, const void* from, std::size_t bytes, std::size_t offset) override {
+        std::memcpy(reinterpret_cast<char*>(buffers_[to].data()) + offset, from, bytes);
     }
     void read(Buffer from, void* to, std::size_t bytes, std::size_t offset) override {
         std::memcpy(to, reinterpret_cast<const char*>(buffers_[from].data()) + offset, bytes);

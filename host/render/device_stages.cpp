@@ -42,9 +42,10 @@ class DeviceStages final : public Stages {
         });
     }
 
-    void write(Buffer to, const void* from, std::size_t bytes) override {
-        program_.guarded("write",
-                         [&] { program_.queue().enqueueWriteBuffer(buffers_[to], CL_TRUE, 0, bytes, from); });
+    void write(Buffer to, const void* from, std::size_t bytes, std::size_t offset) override {
+        program_.guarded("write", [&] {
+            program_.queue().enqueueWriteBuffer(buffers_[to], CL_TRUE, offset, bytes, from);
+        });
     }
 
     void read(Buffer from, void* to, std::size_t bytes, std::size_t offset) override {

@@ -34,7 +34,7 @@ class Stages {
 
     // Filled with zeros.
     virtual Buffer buffer(std::size_t bytes) = 0;
-    virtual void write(Buffer to, const void* from, std::size_t bytes) = 0;
+    virtual void write(Buffer to, const void* from, std::size_t bytes, std::size_t offset = 0) = 0;
     virtual void read(Buffer from, void* to, std::size_t bytes, std::size_t offset = 0) = 0;
     // Runs vndf_render_<stage> on at least `items` items, in whole groups.
     virtual void launch(const std::string& stage, std::size_t items, Arguments arguments) = 0;

@@ -94,20 +94,46 @@ Wavefront::Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const
     word_buffer_ = stages_.buffer(VNDF_QUAD_WORDS * quads(settings) * sizeof(std::uint32_t));
 }
 
-bool Wavefront::add_sample(const std::function<bool()>& stop) {
-    const std::vector<std::uint32_t> words = words_.next();
+void Wavefront::prepare_sample() {
+    const std::vector<std::uint32_t> words = words_.of(samples_);
     stages_.write(word_buffer_, words.data(), words.size() * sizeof(std::uint32_t));
+}
+
+void Wavefront::add_queueful(std::uint32_t first, std::uint32_t count) {
+    trace(first, count);
+    const float odd = other_half(samples_) ? 1.0f : 0.0f;
+    stages_.launch("accumulate", count, {light_, first, count, stride_, film_stride_, odd, film_});
+}
+
+bool Wavefront::add_sample(const std::function<bool()>& stop) {
+    prepare_sample();
     for (std::uint32_t first = ahead_; first < pixels_; first += queue_) {
         const std::uint32_t count = std::min(queue_, pixels_ - first);
-        trace(first, count);
-        const float odd = other_half(samples_) ? 1.0f : 0.0f;
-        stages_.launch("accumulate", count, {light_, first, count, stride_, film_stride_, odd, film_});
+        add_queueful(first, count);
         ahead_ = first + count;
         if (ahead_ < pixels_ && stop()) return false;
     }
     ahead_ = 0;
     ++samples_;
     return !stop();
+}
+
+void Wavefront::add(Part& part) {
+    if (part.pixels == 0) return;
+    const std::size_t bytes = part.pixels * sizeof(float);
+    const auto offset = [&](std::size_t plane) {
+        return (plane * film_stride_ + part.first) * sizeof(float);
+    };
+    for (std::size_t k = 0; k < VNDF_FILM_PLANES; ++k)
+        stages_.write(film_, &part.film[k * part.pixels], bytes, offset(k));
+    const std::uint32_t end = part.first + part.pixels;
+    for (samples_ = part.sample; samples_ < part.sample + part.samples; ++samples_) {
+        prepare_sample();
+        for (std::uint32_t first = part.first; first < end; first += queue_)
+            add_queueful(first, std::min(queue_, end - first));
+    }
+    for (std::size_t k = 0; k < VNDF_FILM_PLANES; ++k)
+        stages_.read(film_, &part.film[k * part.pixels], bytes, offset(k));
 }
 
 void Wavefront::trace(std::uint32_t first, std::uint32_t count) {
@@ -204,20 +230,25 @@ State Wavefront::state() {
 }
 
 void Wavefront::resume(const State& state) {
-    for (std::uint64_t i = 0; i < state.samples; ++i) words_.next();
     samples_ = state.samples;
     ahead_ = state.ahead;
     stages_.write(film_, state.film.data(), state.film.size() * sizeof(float));
 }
 
 Image Wavefront::image() {
-    const std::vector<float> film = state().film;
-    const auto plane = [&](std::size_t k, std::size_t pixel) { return film[k * film_stride_ + pixel]; };
-    Image image{settings_.width, settings_.height, std::vector<float>(std::size_t{3} * pixels_)};
-    image.samples = static_cast<double>(pixel_samples()) / pixels_;
+    return image_of(state(), settings_);
+}
+
+Image image_of(const State& state, const Settings& settings) {
+    const std::uint32_t pixels = settings.width * settings.height;
+    const auto plane = [&](std::size_t k, std::size_t pixel) {
+        return state.film[k * (pixels + std::size_t{1}) + pixel];
+    };
+    Image image{settings.width, settings.height, std::vector<float>(std::size_t{3} * pixels)};
+    image.samples = static_cast<double>(state.samples * pixels + state.ahead) / pixels;
     double sum = 0, square = 0;
-    for (std::uint32_t pixel = 0; pixel < pixels_; ++pixel) {
-        const std::uint64_t taken = samples_ + (pixel < ahead_);
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        const std::uint64_t taken = state.samples + (pixel < state.ahead);
         const double bad = plane(VNDF_FILM_BAD, pixel),
                      good = std::max(1.0, static_cast<double>(taken) - bad);
         image.bad_pixels += bad > 0;
@@ -233,7 +264,7 @@ Image Wavefront::image() {
         const double odd = plane(VNDF_FILM_ODD, pixel) / std::max<std::uint64_t>(1, others);
         square += (odd - mean) * (odd - mean);
     }
-    image.error = samples_ < 2 || sum == 0 ? 1 : std::sqrt(square / pixels_) / (sum / pixels_);
+    image.error = state.samples < 2 || sum == 0 ? 1 : std::sqrt(square / pixels) / (sum / pixels);
     return image;
 }
 

@@ -39,12 +39,25 @@ struct State {
     std::vector<float> film;
 };
 
+Image image_of(const State& state, const Settings& settings);
+
+// Some pixels, their part of a film plane by plane, and the samples that they are to get next.
+struct Part {
+    std::uint32_t first = 0, pixels = 0;
+    std::uint64_t sample = 0, samples = 0;
+    std::vector<float> film;
+};
+
 class Wavefront {
   public:
     Wavefront(Stages& stages, const Scene& scene, const Tree& tree, const Settings& settings);
 
     // Adds a sample to every pixel. stop(), asked after each queueful, may end it before; false if it did.
     bool add_sample(const std::function<bool()>& stop = [] { return false; });
+
+    // Adds its samples to a part of any film, which afterwards has the bits that adding samples to all pixels gives it. Not to
+    // be mixed with the others, whose film this one leaves undefined.
+    void add(Part& part);
 
     Image image();
     State state();
@@ -53,7 +66,7 @@ class Wavefront {
     std::uint64_t samples() const { return samples_; }
     // Bytes on the device: of the scene and its tree, of all paths in flight, and of one.
     struct Memory {
-        std::size_t scene, tree, paths, path;
+        std::size_t scene = 0, tree = 0, paths = 0, path = 0;
     };
     const Memory& memory() const { return memory_; }
     std::uint32_t lamps() const { return lamp_table_.count; }
@@ -61,6 +74,8 @@ class Wavefront {
     std::uint64_t pixel_samples() const { return samples_ * pixels_ + ahead_; }
 
   private:
+    void prepare_sample();
+    void add_queueful(std::uint32_t first, std::uint32_t count);
     void trace(std::uint32_t first, std::uint32_t count);
     std::uint32_t salt(unsigned bounce, bool shadow) const;
     void turn(std::uint32_t first, std::uint32_t count, unsigned bounce, Stages::Buffer path,

@@ -10,13 +10,12 @@ namespace vndf::render {
 
 enum class Random { sobol, philox };
 
-// The words of each sample in turn.
 class Words {
   public:
     Words(Random random, std::uint64_t seed, unsigned quads);
 
-    // Of the next sample: VNDF_QUAD_WORDS for each quad.
-    std::vector<std::uint32_t> next();
+    // Of a sample: VNDF_QUAD_WORDS for each quad.
+    std::vector<std::uint32_t> of(std::uint64_t sample);
 
   private:
     using Sequence = boost::random::sobol_engine<std::uint32_t, 32>;
@@ -24,8 +23,8 @@ class Words {
     Random random_;
     std::uint64_t seed_;
     unsigned quads_;
-    std::uint32_t sample_ = 0;
     Sequence sequence_;
+    std::uint64_t next_ = 1;  // the sample whose point the sequence gives next
 };
 
 }  // namespace vndf::render

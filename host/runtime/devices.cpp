@@ -106,7 +106,39 @@ Matches matches_of(const std::vector<Device>& all, const std::string& wanted, co
     return part;
 }
 
+constexpr std::string_view every = "all", every_of = "all:";
+
+// Which option or variable asks, whose value becomes `wanted`.
+std::string asking(std::string& wanted) {
+    const char* const variable = std::getenv("CLVNDF_DEVICE");
+    if (!wanted.empty() || !variable) return "--device";
+    wanted = variable;
+    return "CLVNDF_DEVICE";
+}
+
+std::string labels(const std::vector<Device>& all) {
+    std::string text;
+    for (const Device& d : all) text += (text.empty() ? "'" : ", '") + d.label() + "'";
+    return text;
+}
+
+// Those that `wanted` names; throws if there are none.
+Matches matching(const std::vector<Device>& all, const std::string& wanted, const std::string& option) {
+    Matches matches = matches_of(all, wanted, option);
+    if (!matches.devices.empty()) return matches;
+    if (const std::string why = why_without_device(wanted); !why.empty())
+        throw DeviceError(fmt::format("{} '{}': {}", option, wanted, why));
+    throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option, wanted,
+                                 labels(all)));
+}
+
 }  // namespace
+
+std::string Device::kind() const {
+    return fmt::format("{}, {}, driver {}{}{}{}{}", label(), platform_version, driver, fp64 ? ", fp64" : "",
+                       fma ? ", fma" : "", denormals ? ", subnormals" : "",
+                       correct_divide_sqrt ? ", correctly rounded division" : "");
+}
 
 std::vector<Device> devices() {
     require_surviving_drivers();
@@ -122,23 +154,13 @@ std::vector<Device> devices() {
 }
 
 Choice choose_device(const std::vector<Device>& all, std::string wanted) {
-    std::string option = "--device";
-    if (const char* variable = std::getenv("CLVNDF_DEVICE"); wanted.empty() && variable) {
-        option = "CLVNDF_DEVICE";
-        wanted = variable;
-    }
+    const std::string option = asking(wanted);
     if (all.empty()) throw DeviceError(no_device());
     if (wanted.empty()) return {default_device(all), {}};
-
-    const auto [name, matches] = matches_of(all, wanted, option);
-    if (matches.empty()) {
-        std::string labels;
-        for (const Device& d : all) labels += (labels.empty() ? "'" : ", '") + d.label() + "'";
-        if (const std::string why = why_without_device(wanted); !why.empty())
-            throw DeviceError(fmt::format("{} '{}': {}", option, wanted, why));
-        throw InputError(fmt::format("{}: no platform or device name contains '{}'; there are {}", option,
-                                     wanted, labels));
-    }
+    if (wants_all(wanted))
+        throw InputError(
+            fmt::format("{} '{}': this command uses one device; there are {}", option, wanted, labels(all)));
+    const auto [name, matches] = matching(all, wanted, option);
     if (matches.size() == 1) return {*matches.front(), {}};
     return {*matches.front(),
             fmt::format("{}: '{}' matches {} devices; taking '{}', the first ('{}#2' is the second)", option,
@@ -151,6 +173,25 @@ void require_compiler(const Device& device) {
         "\"{}\" ({}) has no compiler (CL_DEVICE_COMPILER_AVAILABLE is false), and kernels are built from "
         "their sources; --device picks another device",
         device.name, device.platform_version));
+}
+
+bool wants_all(std::string wanted) {
+    asking(wanted);
+    return wanted == every || (wanted.starts_with(every_of) && wanted.size() > every_of.size());
+}
+
+std::string one_of_all(const std::string& wanted) {
+    if (wanted == every) return {};
+    return wants_all(wanted) ? wanted.substr(every_of.size()) : wanted;
+}
+
+std::vector<Device> choose_devices(const std::vector<Device>& all, std::string wanted) {
+    const std::string option = asking(wanted);
+    if (all.empty()) throw DeviceError(no_device());
+    if (wanted == every) return all;
+    std::vector<Device> chosen;
+    for (const Device* device : matching(all, one_of_all(wanted), option).devices) chosen.push_back(*device);
+    return chosen;
 }
 
 void require_real(const Device& device, Real real) {

@@ -26,6 +26,8 @@ struct Device {
     unsigned long long memory_bytes = 0;
 
     std::string label() const { return platform + " / " + name; }
+    // The same for devices that give the same results at the same speed, as far as they say.
+    std::string kind() const;
 };
 
 // Every device of every platform, in the loader's order. A platform without devices, or one that fails to
@@ -42,6 +44,16 @@ struct Choice {
 // listing the devices there are; DeviceError, with the likely cause, if there are none, or only a platform of that name.
 Choice choose_device(std::string wanted = {});
 Choice choose_device(const std::vector<Device>& all, std::string wanted);
+
+// Whether `wanted`, or without it CLVNDF_DEVICE, asks for several devices: "all", or "all:NAME", those whose platform or
+// device name contains NAME.
+bool wants_all(std::string wanted);
+
+// What asks for one of them: "" for "all", "NAME" for "all:NAME", and anything else for itself.
+std::string one_of_all(const std::string& wanted);
+
+// Those, in the loader's order. Throws as choose_device() does.
+std::vector<Device> choose_devices(const std::vector<Device>& all, std::string wanted);
 
 // Throws InputError if the device has no numbers of this type.
 void require_real(const Device& device, Real real);

@@ -33,13 +33,9 @@ std::string memory_limit() {
     return fmt::format("the address space is limited to {} KiB (ulimit -v)", limit.rlim_cur / 1024);
 }
 
-// PoCL keeps its cache where the first of these that is set says, and has no device if it cannot write there.
+// PoCL has no device if it cannot write to its cache.
 std::string pocl_cache_failure() {
-    std::filesystem::path folder = environment("POCL_CACHE_DIR");
-    if (folder.empty() && !environment("XDG_CACHE_HOME").empty())
-        folder = std::filesystem::path(environment("XDG_CACHE_HOME")) / "pocl/kcache";
-    if (folder.empty() && !environment("HOME").empty())
-        folder = std::filesystem::path(environment("HOME")) / ".cache/pocl/kcache";
+    const std::filesystem::path folder = pocl_cache_folder();
     if (folder.empty()) return {};
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);  // as PoCL does
@@ -58,6 +54,16 @@ std::string cause(const std::string& platform, cl_int status) {
 }
 
 }  // namespace
+
+// Where the first of these that is set says.
+std::string pocl_cache_folder() {
+    std::filesystem::path folder = environment("POCL_CACHE_DIR");
+    if (folder.empty() && !environment("XDG_CACHE_HOME").empty())
+        folder = std::filesystem::path(environment("XDG_CACHE_HOME")) / "pocl/kcache";
+    if (folder.empty() && !environment("HOME").empty())
+        folder = std::filesystem::path(environment("HOME")) / ".cache/pocl/kcache";
+    return folder.string();
+}
 
 std::string why_without_device(const std::string& wanted) {
     std::vector<cl::Platform> platforms;

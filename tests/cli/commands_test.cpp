@@ -84,7 +84,8 @@ TEST_CASE("every command runs to its end with every option") {
         "--quick "
         "--points 1024",
         "check --only vndf_reflect --digest --answers",
-        "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000",
+        "check --only vndf_ggx_sample_wm_dupuy2023 --exhaustive --minutes 0.001 --slice 1/1000 "
+        "--checkpoint walked",
         "emit --help",
         "emit vndf_reflect ggx_g1 --output emitted.h --as c --math builtin --real double --prefix x_ "
         "--selftest",

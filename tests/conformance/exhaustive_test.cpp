@@ -82,11 +82,12 @@ Slice one_pass(const Function& sampler) {
 
 // One pass for each sampler.
 ExhaustiveReport walk(const std::vector<const Function*>& samplers, const runtime::ProgramOptions& program) {
-    const runtime::Program built(runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32,
-                                 program);
-    ExhaustiveOptions options;
-    options.slice = one_pass(*samplers.front());
-    return exhaust(built, samplers, options);
+    ExhaustiveWalk walk(samplers, one_pass(*samplers.front()));
+    ExhaustiveWalker walker(
+        walk, {runtime::choose_device().device, runtime::Math::strict, runtime::Real::f32, program});
+    REQUIRE(walk.pieces() == 1);
+    walk.take(walker.walk(0));
+    return walk.report();
 }
 
 // "wo_x=0x1p-1 wo_y=..." as two lines of CSV.

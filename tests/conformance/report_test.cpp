@@ -76,6 +76,35 @@ std::string unbalanced(const std::string& html) {
 
 }  // namespace
 
+TEST_CASE("a run in pieces judges every lobe once, and says the same in whatever order they are judged") {
+    const Function& function = *find_function(sampler);
+    runtime::ProgramOptions program;
+    program.functions = {sampler};
+    runtime::DeviceEvaluator evaluator(runtime::choose_device().device, runtime::Math::strict,
+                                       runtime::Real::f32, program);
+    CheckOptions options;
+    options.quick = true, options.pictures = Pictures::all;
+    const auto text = [](Report report) {
+        report.seconds = 0;
+        return format_json(report) + page_of(report, true);
+    };
+    CheckRun run(runtime::Math::strict, runtime::Real::f32, {&function}, options);
+    std::vector<std::string> judged(run.pieces());
+    CHECK(judged.size() > 2);
+    for (std::size_t i = judged.size(); i-- > 0;) judged[i] = run.judge(evaluator, i);
+    for (const std::string& piece : judged) run.take(piece);
+    const Report report = run.finish();
+    CHECK(text(report) == text(check(evaluator, runtime::Math::strict, {&function}, options)));
+
+    PointwiseOptions quick;
+    quick.quick = true;
+    const std::vector<Point> all = lobes(function, quick);
+    const std::vector<LobePicture>& pictures = report.functions.front().pictures;
+    REQUIRE(pictures.size() == all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        CHECK(pictures[i].row == tabulate(function, {all[i]}, runtime::Real::f32).row(0));
+}
+
 TEST_CASE("a wrong sampler's page shows what is wrong, and needs no other file") {
     const Report report = checked(true, Pictures::failed);
     const FunctionReport& judged = report.functions.front();

@@ -31,7 +31,7 @@ struct LobeTest {
     double figure = 1;  // p, or what may be no larger than the limit: of means the deviation in tolerances
     std::string detail;
     double limit = 1;
-    const char* unit = "tolerances";
+    std::string unit = "tolerances";
 
     bool passed() const { return is_p ? figure >= limit : figure <= limit; }
 };
@@ -44,7 +44,7 @@ struct CellCounts {
 
 // A mean against its expectation.
 struct MeanTest {
-    const char* name;  // "x", "stretched z", ...
+    std::string name;  // "x", "stretched z", ...
     double difference = 0, tolerance = 0;
     double error = 0;  // the standard error of the mean
 };

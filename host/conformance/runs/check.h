@@ -1,12 +1,15 @@
 // The conformance engine: every registered function on one device against the reference.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "conformance/inputs/grids.h"
+#include "conformance/inputs/pointwise_table.h"
 #include "conformance/report/report.h"
 #include "runtime/device_evaluator.h"
 
@@ -36,6 +39,52 @@ std::vector<const Function*> select(const std::string& pattern);
 
 // The names that the device's program needs to check these functions: their own, plain forms and densities.
 std::vector<std::string> needed(const std::vector<const Function*>& selected);
+
+// A run in pieces that evaluators of one kind judge in any order and anywhere, with the same results: what a function makes of
+// single inputs, and its samples some lobes at a time. The options must outlive it.
+class CheckRun {
+  public:
+    CheckRun(runtime::Math math, runtime::Real real, const std::vector<const Function*>& selected,
+             const CheckOptions& options);
+    ~CheckRun();
+
+    std::size_t pieces() const { return pieces_.size(); }
+    // Bytes for take(). Threads may share the run, each with its own evaluator, whose program must hold needed(selected).
+    std::string judge(runtime::DeviceEvaluator& evaluator, std::size_t piece) const;
+    // Piece by piece, in their order.
+    void take(const std::string& judged);
+    // Once all are taken.
+    Report finish();
+
+  private:
+    struct Piece {
+        const Function* function;
+        std::size_t first, end;  // lobes; none: everything else
+        bool is_lobes() const { return first < end; }
+    };
+    struct Values;
+    struct Taking;
+
+    void plan(const Function& function);
+    double work(const Piece& piece) const;
+    bool compares_bits() const;
+    Values judge_values(runtime::DeviceEvaluator& evaluator, const Function& function) const;
+    void add_values(runtime::DeviceEvaluator& evaluator, const Function& function, Finding& finding) const;
+    template <class T>
+    std::vector<LobePicture> draw(runtime::DeviceEvaluator& evaluator, const Piece& piece) const;
+    void finish_function();
+
+    runtime::Math math_;
+    runtime::Real real_;
+    const CheckOptions& options_;
+    PointwiseOptions pointwise_;
+    std::vector<Piece> pieces_;
+    Report report_;
+    std::unique_ptr<Taking> taking_;
+    std::size_t taken_ = 0;
+    double work_total_ = 0, work_done_ = 0;
+    std::chrono::steady_clock::time_point start_;
+};
 
 // Checks the functions. The evaluator's program must hold needed(selected).
 Report check(runtime::DeviceEvaluator& evaluator, runtime::Math math,

@@ -7,11 +7,15 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "conformance/judge/errors.h"
 
 namespace vndf::conformance {
 namespace {
+
+// The form in which what was found travels between processes.
+using Json = nlohmann::json;
 
 constexpr std::uint32_t all_u = 1u << 24;
 constexpr std::uint32_t strip = 128;  // inputs of a work-item
@@ -78,109 +82,6 @@ Lobe lobe_of(const Function& sampler, const Point& point) {
 }
 
 using Tally = std::array<cl_uint, invariant_count + 1>;
-
-// One sampler on the device.
-class Walker {
-  public:
-    Walker(const runtime::Program& program, const cl::Buffer& tally, const Function& sampler)
-        : sampler_(sampler),
-          program_(program),
-          kernel_(program.kernel("vndf_exhaustive_" + sampler.name)),
-          tally_(tally) {
-        for (const Point& point : exhaustive_lobes(sampler)) lobes_.push_back(lobe_of(sampler, point));
-        exhausted_.sampler = &sampler;
-        for (const char* name :
-             {"all four numbers finite", "unit length",
-              sampler.result == "WI" ? "half vector above the horizon" : "wm above the horizon",
-              sampler.result == "WI" ? "wi in its cap" : "wm faces wo",
-              "density positive where there is one, else 0"})
-            exhausted_.offenders.push_back({name, 0, {}});
-    }
-
-    std::uint32_t lobes() const { return static_cast<std::uint32_t>(lobes_.size()); }
-    const Exhausted& exhausted() const { return exhausted_; }
-    const std::string& name() const { return sampler_.name; }
-
-    // The pass `round` over a lobe; lobes begin with different passes, so that a part of the walk has some of all.
-    void run(std::uint32_t round, std::uint32_t lobe) {
-        const auto start = std::chrono::steady_clock::now();
-        const Walk walk = walk_of((round + lobe) % passes, lobe);
-        const Tally tally = launch(lobes_[lobe], walk, all_invariants);
-        for (std::size_t i = 0; i < invariant_count; ++i) {
-            Offenders& offenders = exhausted_.offenders[i];
-            if (tally[i] != 0 && offenders.count == 0)
-                offenders.first = hex_row(lobes_[lobe], walk, launch(lobes_[lobe], walk, 1u << i).back());
-            offenders.count += tally[i];
-        }
-        exhausted_.inputs += all_u;
-        exhausted_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
-  private:
-    Tally launch(const Lobe& lobe, const Walk& walk, std::uint32_t watch) {
-        Tally tally{};
-        tally.back() = no_offender;
-        program_.queue().enqueueWriteBuffer(tally_, CL_FALSE, 0, sizeof tally, tally.data());
-        cl_uint argument = 0;
-        for (std::size_t i = 0; i < lobe.row.size(); ++i) {
-            const std::string& name = sampler_.inputs[i];
-            kernel_.setArg(argument++, name == "u1"   ? walk.origin[0]
-                                       : name == "u2" ? walk.origin[1]
-                                                      : lobe.row[i]);
-        }
-        for (const std::uint32_t value : {walk.step[0], walk.start[0], walk.step[1], walk.start[1], strip,
-                                          std::uint32_t{lobe.defined}, std::uint32_t{lobe.documented}, watch})
-            kernel_.setArg(argument++, cl_uint{value});
-        kernel_.setArg(argument, tally_);
-        program_.launch(kernel_, all_u / strip);
-        program_.queue().enqueueReadBuffer(tally_, CL_TRUE, 0, sizeof tally, tally.data());
-        return tally;
-    }
-
-    std::string hex_row(const Lobe& lobe, const Walk& walk, std::uint32_t k) const {
-        std::vector<double> row(lobe.row.begin(), lobe.row.end());
-        row[column(sampler_, "u1")] = walk.u(0, k);
-        row[column(sampler_, "u2")] = walk.u(1, k);
-        return conformance::hex_row(sampler_, row);
-    }
-
-    const Function& sampler_;
-    const runtime::Program& program_;
-    cl::Kernel kernel_;
-    cl::Buffer tally_;
-    std::vector<Lobe> lobes_;
-    Exhausted exhausted_;
-};
-
-// The order of the walk: all samplers at a lobe, lobe by lobe, pass by pass; slices take the lobes in turn.
-class Run {
-  public:
-    Run(std::vector<Walker>& walkers, const ExhaustiveOptions& options)
-        : walkers_(walkers), options_(options), start_(std::chrono::steady_clock::now()) {
-        for (const Walker& walker : walkers) lobes_ = std::max(lobes_, walker.lobes());
-    }
-
-    void run() {
-        for (std::uint32_t unit = options_.slice.index; unit < passes * lobes_; unit += options_.slice.count)
-            for (Walker& walker : walkers_) {
-                const std::uint32_t lobe = unit % lobes_;
-                if (lobe >= walker.lobes()) continue;
-                const double share = unit / (1.0 * passes * lobes_), time = seconds() / options_.seconds;
-                if (time >= 1 || !options_.proceed(walker.name(), std::max(share, time))) return;
-                walker.run(unit / lobes_, lobe);
-            }
-    }
-
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::vector<Walker>& walkers_;
-    const ExhaustiveOptions& options_;
-    std::chrono::steady_clock::time_point start_;
-    std::uint32_t lobes_ = 0;
-};
 
 // Whether all of a cap is sampled with a density: not where wo leaves no room for it, nor where -wo lies next to its rim.
 bool has_room(const Point& point) {
@@ -271,26 +172,152 @@ runtime::ProgramOptions exhaustive_program(const std::vector<const Function*>& s
     return options;
 }
 
-ExhaustiveReport exhaust(const runtime::Program& program, const std::vector<const Function*>& samplers,
-                         const ExhaustiveOptions& options) {
-    ExhaustiveReport report;
-    report.device = program.device().label();
-    report.options = program.build_options();
-    report.math = to_string(program.math());
-    program.guarded("walk", [&] {
-        const cl::Buffer tally = program.buffer(sizeof(Tally));
-        std::vector<Walker> walkers;
-        for (const Function* sampler : samplers) walkers.emplace_back(program, tally, *sampler);
-        Run run(walkers, options);
-        run.run();
-        report.seconds = run.seconds();
-        for (const Walker& walker : walkers) {
-            report.inputs += walker.exhausted().inputs;
-            report.whole += std::uint64_t{all_u} * passes * walker.lobes();
-            report.samplers.push_back(walker.exhausted());
+ExhaustiveWalk::ExhaustiveWalk(const std::vector<const Function*>& samplers, Slice slice)
+    : samplers_(samplers), slice_(slice) {
+    for (const Function* sampler : samplers) {
+        lobes_.push_back(static_cast<std::uint32_t>(exhaustive_lobes(*sampler).size()));
+        most_lobes_ = std::max(most_lobes_, lobes_.back());
+        report_.whole += std::uint64_t{all_u} * passes * lobes_.back();
+        Exhausted& exhausted = report_.samplers.emplace_back();
+        exhausted.sampler = sampler;
+        for (const char* name :
+             {"all four numbers finite", "unit length",
+              sampler->result == "WI" ? "half vector above the horizon" : "wm above the horizon",
+              sampler->result == "WI" ? "wi in its cap" : "wm faces wo",
+              "density positive where there is one, else 0"})
+            exhausted.offenders.push_back({name, 0, {}});
+    }
+}
+
+std::uint32_t ExhaustiveWalk::pieces() const {
+    const std::uint32_t all = passes * most_lobes_;
+    return slice_.index >= all ? 0 : (all - slice_.index - 1) / slice_.count + 1;
+}
+
+// Lobe by lobe, pass by pass; slices take the lobes in turn.
+ExhaustiveWalk::Place ExhaustiveWalk::place(std::uint32_t piece) const {
+    const std::uint32_t number = slice_.index + piece * slice_.count;
+    return {number / most_lobes_, number % most_lobes_};
+}
+
+std::uint64_t ExhaustiveWalk::inputs(std::size_t sampler, std::uint32_t pieces) const {
+    std::uint64_t inputs = 0;
+    for (std::uint32_t piece = 0; piece < pieces; ++piece)
+        if (place(piece).lobe < lobes_[sampler]) inputs += all_u;
+    return inputs;
+}
+
+void ExhaustiveWalk::take(const std::string& walked) {
+    const Json found = Json::from_cbor(walked);
+    report_.device = found.at("device"), report_.options = found.at("options"),
+    report_.math = found.at("math");
+    ++taken_;
+    for (const Json& one : found.at("samplers")) {
+        Exhausted& exhausted = report_.samplers.at(one.at("sampler").get<std::size_t>());
+        exhausted.inputs += all_u;
+        exhausted.seconds += one.at("seconds").get<double>();
+        report_.inputs += all_u;
+        for (std::size_t i = 0; i < invariant_count; ++i) {
+            Offenders& offenders = exhausted.offenders[i];
+            if (offenders.count == 0) offenders.first = one.at("first").at(i);
+            offenders.count += one.at("counts").at(i).get<std::uint64_t>();
+        }
+    }
+}
+
+void ExhaustiveWalk::resume(std::uint32_t taken, ExhaustiveReport report) {
+    taken_ = taken;
+    report_ = std::move(report);
+}
+
+// One sampler on the device.
+class ExhaustiveWalker::OneSampler {
+  public:
+    OneSampler(const runtime::Program& program, const cl::Buffer& tally, const Function& sampler)
+        : sampler_(sampler),
+          program_(program),
+          kernel_(program.kernel("vndf_exhaustive_" + sampler.name)),
+          tally_(tally) {
+        for (const Point& point : exhaustive_lobes(sampler)) lobes_.push_back(lobe_of(sampler, point));
+    }
+
+    std::size_t lobes() const { return lobes_.size(); }
+
+    // The pass `round` over a lobe; lobes begin with different passes, so that a part of the walk has some of all.
+    Json walk(std::uint32_t round, std::uint32_t lobe) {
+        const auto start = std::chrono::steady_clock::now();
+        const Walk walk = walk_of((round + lobe) % passes, lobe);
+        const Tally tally = launch(lobes_[lobe], walk, all_invariants);
+        std::vector<std::uint64_t> counts(tally.begin(), tally.begin() + invariant_count);
+        std::vector<std::string> first(invariant_count);
+        for (std::size_t i = 0; i < invariant_count; ++i)
+            if (counts[i] != 0)
+                first[i] = hex_row(lobes_[lobe], walk, launch(lobes_[lobe], walk, 1u << i).back());
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        return {{"counts", counts}, {"first", first}, {"seconds", taken.count()}};
+    }
+
+  private:
+    Tally launch(const Lobe& lobe, const Walk& walk, std::uint32_t watch) {
+        Tally tally{};
+        tally.back() = no_offender;
+        program_.queue().enqueueWriteBuffer(tally_, CL_FALSE, 0, sizeof tally, tally.data());
+        cl_uint argument = 0;
+        for (std::size_t i = 0; i < lobe.row.size(); ++i) {
+            const std::string& name = sampler_.inputs[i];
+            kernel_.setArg(argument++, name == "u1"   ? walk.origin[0]
+                                       : name == "u2" ? walk.origin[1]
+                                                      : lobe.row[i]);
+        }
+        for (const std::uint32_t value : {walk.step[0], walk.start[0], walk.step[1], walk.start[1], strip,
+                                          std::uint32_t{lobe.defined}, std::uint32_t{lobe.documented}, watch})
+            kernel_.setArg(argument++, cl_uint{value});
+        kernel_.setArg(argument, tally_);
+        program_.launch(kernel_, all_u / strip);
+        program_.queue().enqueueReadBuffer(tally_, CL_TRUE, 0, sizeof tally, tally.data());
+        return tally;
+    }
+
+    std::string hex_row(const Lobe& lobe, const Walk& walk, std::uint32_t k) const {
+        std::vector<double> row(lobe.row.begin(), lobe.row.end());
+        row[column(sampler_, "u1")] = walk.u(0, k);
+        row[column(sampler_, "u2")] = walk.u(1, k);
+        return conformance::hex_row(sampler_, row);
+    }
+
+    const Function& sampler_;
+    const runtime::Program& program_;
+    cl::Kernel kernel_;
+    cl::Buffer tally_;
+    std::vector<Lobe> lobes_;
+};
+
+ExhaustiveWalker::ExhaustiveWalker(const ExhaustiveWalk& walk, runtime::Program program)
+    : walk_(walk), program_(std::move(program)) {
+    program_.guarded("walk", [&] {
+        tally_ = program_.buffer(sizeof(Tally));
+        for (const Function* sampler : walk.samplers_) samplers_.emplace_back(program_, tally_, *sampler);
+    });
+}
+
+ExhaustiveWalker::~ExhaustiveWalker() = default;
+
+std::string ExhaustiveWalker::walk(std::uint32_t piece) {
+    const auto [round, lobe] = walk_.place(piece);
+    Json found{{"device", program_.device().label()},
+               {"options", program_.build_options()},
+               {"math", to_string(program_.math())},
+               {"samplers", Json::array()}};
+    program_.guarded("walk", [&] {
+        for (std::size_t i = 0; i < samplers_.size(); ++i) {
+            if (lobe >= samplers_[i].lobes()) continue;
+            found["samplers"].push_back(samplers_[i].walk(round, lobe));
+            found["samplers"].back()["sampler"] = i;
         }
     });
-    return report;
+    std::string bytes;
+    Json::to_cbor(found, bytes);
+    return bytes;
 }
 
 std::string format_table(const ExhaustiveReport& report) {

@@ -1,0 +1,149 @@
+#!/bin/sh
+# Ranks of `mpirun clvndf` on separate hosts, and how well two share the work.
+#
+#   ranks.sh BUILD WORK hosts           two network namespaces with a cable between them are two hosts (as root)
+#   ranks.sh BUILD WORK speed [REPEAT]  one rank of one core beside two (default: 3 times, the best of each counts)
+#
+# BUILD: where it is built; WORK: a folder for what is made here.
+# Exit status: 0 all is well, 1 not, 2 wrong arguments or nothing built, 77 something that it needs is missing.
+set -u
+
+cannot() {
+    echo "ranks.sh: $*" >&2
+    exit 2
+}
+
+[ $# -ge 3 ] || cannot "usage: ranks.sh BUILD WORK hosts|speed [REPEAT]"
+build=$1 work=$2 what=$3 repeat=${4-3}
+case $what in hosts | speed) ;; *) cannot "'$what': hosts and speed are what there is" ;; esac
+[ -x "$build/clvndf" ] || cannot "no $build/clvndf: build it first (cmake --build $build --target clvndf)"
+clvndf=$(cd "$build" && pwd)/clvndf
+mkdir -p "$work" && cd "$work" || cannot "$work: cannot make this folder"
+command -v mpirun >/dev/null || { echo "skipped: no mpirun"; exit 77; }
+# As root; and in containers, whose ranks may not read each other's memory.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
+export POCL_CACHE_DIR="$PWD/cache"
+status=0
+
+# A report but for its times.
+timeless() { sed 's/in [0-9.]* s:/in T s:/; s/; [0-9.]* s, seed/; T s, seed/; s/  *[0-9][0-9]*  none/ none/' "$1"; }
+
+same() {
+    if timeless "$2" >a && timeless "$3" >b && cmp -s a b; then
+        echo "$1: the same"
+    else
+        echo "$1: NOT the same"
+        diff a b | head -4
+        status=1
+    fi
+}
+
+hosts() {
+    [ "$(id -u)" = 0 ] && command -v ip >/dev/null && command -v unshare >/dev/null ||
+        { echo "skipped: needs root, ip (iproute2) and unshare"; exit 77; }
+    one=clvndf-$$-1 two=clvndf-$$-2
+    trap 'ip netns del $one; ip netns del $two' EXIT
+    trap 'exit 1' INT TERM
+    ip netns add $one && ip netns add $two &&
+        ip link add eth0 netns $one type veth peer name eth0 netns $two || { echo "skipped: no network namespaces"; exit 77; }
+    for host in 1 2; do
+        ip -n clvndf-$$-$host addr add 10.77.0.$host/24 dev eth0
+        ip -n clvndf-$$-$host link set eth0 up
+        ip -n clvndf-$$-$host link set lo up
+    done
+    # In place of ssh: a command on the host of this address, which has a name of its own.
+    cat >agent <<END
+#!/bin/sh
+host=\$1
+shift
+exec ip netns exec clvndf-$$-\${host##*.} unshare --uts sh -c "hostname host\${host##*.}; \$*"
+END
+    chmod +x agent
+    on_hosts() {
+        ./agent 10.77.0.1 cd "$PWD" \&\& exec mpirun --mca plm_rsh_agent "$PWD/agent" --mca btl self,tcp \
+            --mca btl_tcp_if_include eth0 --mca oob_tcp_if_include eth0 \
+            --mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 1 --mca oob_tcp_keepalive_probes 3 -H 10.77.0.1:1,10.77.0.2:1 -n 2 --bind-to none \
+            -x POCL_CACHE_DIR "$@"
+    }
+    # Bytes between the hosts so far, both ways.
+    sent() { ip netns exec $one cat /sys/class/net/eth0/statistics/tx_bytes /sys/class/net/eth0/statistics/rx_bytes | awk '{ n += $1 } END { print n }'; }
+
+    on_hosts hostname | sort | tr '\n' ' '
+    echo "are the hosts"
+    for run in "check --quick --only vndf_ggx_sample_wm_dupuy2023" "check --exhaustive --only vndf_ggx_sample_wm_heitz2018 --slice 1/1000"; do
+        "$clvndf" --quiet $run >alone
+        before=$(sent)
+        on_hosts "$clvndf" --quiet $run >together
+        same "$run, $(($(sent) - before)) bytes between the hosts" alone together
+    done
+    render="render --size 200x150 --spp 8"
+    "$clvndf" --quiet $render -o alone.png
+    before=$(sent)
+    on_hosts "$clvndf" --quiet $render -o together.png
+    # All chunks but those of words.
+    pixels() { python3 -c 'import sys; d=open(sys.argv[1],"rb").read(); i=8
+while i < len(d):
+    n=int.from_bytes(d[i:i+4],"big")+12
+    if d[i+4:i+8] != b"tEXt": sys.stdout.buffer.write(d[i:i+n])
+    i+=n' "$1"; }
+    pixels alone.png >a.pixels && pixels together.png >b.pixels
+    cmp a.pixels b.pixels && echo "$render, $(($(sent) - before)) bytes between the hosts: the same" || status=1
+
+    # Of a benchmark the entries and what is no time; copies are there once.
+    bench="bench --quick --only vndf_ggx_*2018_with_pdf/strict --repetitions 3 --json"
+    figures() { python3 -c 'import json, sys
+for b in json.load(open(sys.argv[1]))["benchmarks"]:
+    print(b["name"], b.get("err_p50"), b.get("err_p99"), b["samples"])' "$1" | sort; }
+    "$clvndf" --quiet $bench alone.json >out && on_hosts "$clvndf" --quiet $bench together.json >out
+    figures alone.json >a.figures && figures together.json >b.figures
+    same "bench of $(grep -c best a.figures) entries" a.figures b.figures
+
+    # The cable is cut in the middle: we notice, and mpirun, which then ends what it can reach.
+    (sleep 4; ip -n $one link set eth0 down) &
+    on_hosts -x CLVNDF_RANK_TIMEOUT=3 "$clvndf" --quiet check --exhaustive --checkpoint at >out 2>err
+    ended=$?
+    if [ $ended != 0 ] && grep -q 'clvndf: rank 1 on host2 has been silent' err && [ ! -s out ]; then
+        echo "a cut cable: status $ended, $(grep clvndf: err)"
+    else
+        echo "a cut cable: status $ended, NOT told: $(cat err)"
+        status=1
+    fi
+}
+
+# timed OUTPUT COMMAND...: its seconds.
+timed() {
+    output=$1 start=$(date +%s.%N)
+    shift
+    "$@" >"$output"
+    awk "BEGIN { print $(date +%s.%N) - $start }"
+}
+# Of a walk's report: million inputs a second, from the start of the command.
+rate() { awk '/inputs walked/ { print $1 / seconds / 1e6 }' seconds="$2" "$1"; }
+better() { awk "BEGIN { print $1 > $2 ? $1 : $2 }"; }
+
+speed() {
+    export POCL_MAX_PTHREAD_COUNT=1
+    walk="$clvndf --quiet check --exhaustive --only vndf_ggx_sample_wm_dupuy2023 --slice"
+    two_ranks() { mpirun -n 2 --map-by core --bind-to core $walk 1/100; }
+    # Two processes that know nothing of each other, a half each: what the machine has to give just now.
+    apart() {
+        POCL_CACHE_DIR="$PWD/cache/rank-1" taskset -c 1 $walk 101/200 >/dev/null &
+        taskset -c 0 $walk 1/200
+        wait
+    }
+    two_ranks >/dev/null && apart >/dev/null || exit 1  # compiles
+    best_one=0 best_two=0 best_apart=0
+    for i in $(seq "$repeat"); do
+        one=$(rate out "$(timed out taskset -c 0 $walk 1/100)")
+        two=$(rate out "$(timed out two_ranks)")
+        halves=$(rate out "$(timed out apart)") # of a half
+        both=$(awk "BEGIN { print 2 * $halves }")
+        echo "run $i, million inputs a second: one rank $one, two ranks $two, two processes apart $both"
+        best_one=$(better "$one" "$best_one") best_two=$(better "$two" "$best_two") best_apart=$(better "$both" "$best_apart")
+    done
+    awk "BEGIN { printf \"efficiency of two ranks: %.2f of one rank's, %.2f of two processes apart\n\", \
+        $best_two / $best_one / 2, $best_two / $best_apart }"
+}
+
+$what
+exit $status
