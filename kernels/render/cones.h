@@ -3,7 +3,8 @@
 //
 // What else the material sends there, diffusely, is found by even samples of the cap: one sample of a mixture of both, whose shares
 // are about what each brings. Its density is that of both together, which is positive wherever there is light: whatever the shares,
-// and whatever is in the way, the mean is right.
+// and whatever is in the way, the mean is right. Where the material's own samples are far denser than even ones they count alone
+// (vndf_render_own_above), and under a coat both are weighed as without cones.
 // Source of the mixture: Veach & Guibas, Optimally Combining Sampling Techniques for Monte Carlo Rendering, 1995, the balance
 // heuristic for one sample.
 #ifndef VNDF_RENDER_CONES_H
