@@ -25,7 +25,7 @@ void print(const runtime::Device& d) {
     put("  {:32}{}\n", "correctly rounded / and sqrt", yes_no(d.correct_divide_sqrt));
     put("  {:32}{}\n", "compute units", d.compute_units);
     put("  {:32}{} MHz\n", "clock", d.clock_mhz);
-    put("  {:32}{}\n", "work-items of a group, at most", d.group_limit);
+    put("  {:32}{}\n", "largest work-group", d.group_limit);
     put("  {:32}{:.1f} GiB\n", "memory", static_cast<double>(d.memory_bytes) / (1u << 30));
     put("  {:32}{} bits\n", "addresses", d.address_bits);
 }

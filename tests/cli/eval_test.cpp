@@ -331,8 +331,9 @@ TEST_CASE("list names every function on a line") {
 TEST_CASE("devices tells what matters of each device") {
     const Outcome run = clvndf("devices");
     REQUIRE(run.status == 0);
-    for (const std::string what : {"driver version", "OpenCL C version", "fp64", "fma", "denormals",
-                                   "correctly rounded / and sqrt", "compute units", "clock", "memory"}) {
+    for (const std::string what :
+         {"driver version", "OpenCL C version", "fp64", "fma", "denormals", "correctly rounded / and sqrt",
+          "compute units", "clock", "memory", "compiler", "largest work-group", "addresses"}) {
         CHECK_THAT(run.out, ContainsSubstring(what));
     }
 }

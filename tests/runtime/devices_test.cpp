@@ -73,7 +73,7 @@ const std::vector<std::string>& commands() {
         "check --digest --quick --only vndf_reflect",
         "check --only " + sampler + " --exhaustive --minutes 0.001 --slice 1/1000",
         "check --quick --points 1024 --kernel '" CLVNDF_SOURCE_DIR
-        "/tests/judge/subtle.cl' --function my_sample --as ggx_sample_wm",
+        "/tests/judge/right.cl' --function my_sample --as ggx_sample_wm",
         "policies --quick --only vndf_reflect --json new",
         "energy --ndf ggx --masking separable --no-cache --output new",
         "render --size 8x4 --spp 1 --output new.png"
@@ -129,7 +129,7 @@ TEST_CASE("a device with small work-groups gives the same bits") {
     NEEDS_LAYERS;
     const std::string limit = GENERATE("1", "64", "256");
     const std::string play = "group=" + limit;
-    CHECK_THAT(on(play, "devices").out, ContainsSubstring("work-items of a group, at most  " + limit + "\n"));
+    CHECK_THAT(on(play, "devices").out, ContainsSubstring("largest work-group              " + limit + "\n"));
     require_right_bits(play);
     if (limit == "1") require_right_image(play);
 }
@@ -204,4 +204,11 @@ TEST_CASE("a device that vanishes ends the command with an error, at whichever c
     while (last < 100 && fails("vanish=" + std::to_string(last), commands().front(), said))
         last += last < 8 ? 1 : 5;
     CHECK((last > 15 && last < 100));
+}
+
+TEST_CASE("a device that vanishes late in any command ends it with an error", "[.vanish-full]") {
+    NEEDS_LAYERS;
+    for (const std::string& command : commands())
+        for (std::size_t calls = 1; fails("vanish=" + std::to_string(calls), command, "CL_OUT_OF_RESOURCES");)
+            calls += calls / 2 + 1;  // ends with the run that the device survives
 }

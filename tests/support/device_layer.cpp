@@ -17,6 +17,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -177,6 +178,17 @@ cl_int CL_API_CALL build(cl_program program, cl_uint count, const cl_device_id* 
     return below->clBuildProgram(program, count, list, options, done, data);
 }
 
+// Queues that have had work.
+std::vector<cl_command_queue> busy;
+std::mutex of_busy;
+
+void put_to_work(cl_command_queue queue) {
+    const std::lock_guard lock(of_busy);
+    if (std::find(busy.begin(), busy.end(), queue) != busy.end()) return;
+    below->clRetainCommandQueue(queue);
+    busy.push_back(queue);
+}
+
 cl_int CL_API_CALL launch(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                           const std::size_t* offset, const std::size_t* items, const std::size_t* group,
                           cl_uint count, const cl_event* before, cl_event* event) {
@@ -186,15 +198,21 @@ cl_int CL_API_CALL launch(cl_command_queue queue, cl_kernel kernel, cl_uint dime
         if (played("address_32") && items[i] >> 32 != 0) return CL_INVALID_GLOBAL_WORK_SIZE;
     }
     if (together > most_items()) return CL_INVALID_WORK_GROUP_SIZE;
+    put_to_work(queue);
     return below->clEnqueueNDRangeKernel(queue, kernel, dimensions, offset, items, group, count, before,
                                          event);
 }
 
-// Whether the device is gone, at this call or before.
+// Whether the device is gone, at this call or before. Then it works no more, as the one below would.
 bool gone() {
     static const unsigned long long last = number("vanish", ~0ull);
     static std::atomic<unsigned long long> calls{0};
-    return calls++ >= last;
+    const unsigned long long call = calls++;
+    if (call == last) {
+        const std::lock_guard lock(of_busy);
+        for (const cl_command_queue queue : busy) below->clFinish(queue);
+    }
+    return call >= last;
 }
 
 // The layer's function of this place, or the one below, until the device vanishes.

@@ -97,7 +97,7 @@ std::string directions(const LobePicture& picture) {
     out += text(columns[0] + 100, y + scale_below + 7,
                 fmt::format("{:.3g} × the average cell", most / total * static_cast<double>(all)), "s");
     if (counts.observed.back() > 0)
-        out += text(columns[1] + 44, y + scale_below + 7,
+        out += text(columns[1] + 60, y + scale_below + 7,
                     fmt::format("{} in no cell", counts.observed.back()), "s");
     return out;
 }
