@@ -253,7 +253,8 @@ Measurement merged(const std::vector<Measurement>& parts, const Surroundings& su
         for (const auto& [name, _] : best_ns) before.insert(name);
         for (const Result& result : part.results)
             if (best_ns.emplace(result.name, result.best_ns).second) whole.results.push_back(result);
-        for (const auto& run : nlohmann::ordered_json::parse(part.json)["benchmarks"])
+        const auto measured = nlohmann::ordered_json::parse(part.json);
+        for (const auto& run : measured["benchmarks"])
             if (!before.contains(run["run_name"])) json["benchmarks"].push_back(run);
     }
     whole.spread = spread_of(best_ns);

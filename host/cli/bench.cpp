@@ -230,7 +230,7 @@ using Batch = std::vector<Form>;
 // What is measured together, so many programs or a few more: a driver may keep some megabytes of each. Each batch after the first
 // has the same kernel once more, for the noise of ratios between them.
 constexpr std::size_t usual_batch = 60;
-std::vector<Batch> in_batches(std::vector<Form> forms, std::size_t most = usual_batch) {
+std::vector<Batch> in_batches(std::vector<Form> forms, std::size_t most) {
     std::stable_sort(forms.begin(), forms.end(), [](const Form& a, const Form& b) {
         return bench::batch_of(a.rung) < bench::batch_of(b.rung);
     });
@@ -253,10 +253,11 @@ std::vector<Batch> in_batches(std::vector<Form> forms, std::size_t most = usual_
     return batches;
 }
 
-// Small enough that each rank has some.
-std::size_t most_of_batch(const Common& common) {
-    constexpr std::size_t least = 8;
-    return std::max(least, usual_batch / static_cast<std::size_t>(common.ranks->size()));
+// Of several ranks so small that each has some.
+std::size_t most_of_batch(std::size_t forms, const Common& common) {
+    constexpr std::size_t least = 8, batches_of_rank = 4;
+    const auto ranks = static_cast<std::size_t>(common.ranks->size());
+    return ranks == 1 ? usual_batch : std::clamp(forms / (batches_of_rank * ranks), least, usual_batch);
 }
 
 std::vector<std::pair<std::string, std::string>> context(const runtime::Device& d,
@@ -464,9 +465,9 @@ void run_bench(Bench options, Common& common) {
         user->evaluator(device);  // says what does not compile, and where
         program = user->program();
     }
-    const std::vector<Batch> batches =
-        user ? in_batches(forms_beside(*user, program, device))
-             : in_batches(selected_forms(device, selection, options), most_of_batch(common));
+    const std::vector<Form> forms =
+        user ? forms_beside(*user, program, device) : selected_forms(device, selection, options);
+    const std::vector<Batch> batches = in_batches(forms, most_of_batch(forms.size(), common));
     const bool all = json || report;
     const bench::Measurement measurement =
         common.ranks->size() > 1 ? measure_by_ranks(options, common, device, session_options, batches, all)
