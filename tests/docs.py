@@ -26,6 +26,7 @@ RESULTS = ROOT / "bench/results/pocl-3.1.json"
 H100 = ROOT / "bench/results/nvidia-h100.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
+TILTS = ROOT / "bench/results/tilts.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
 REFRACTION = ROOT / "bench/results/refraction.json"
@@ -374,6 +375,8 @@ TABLES = {
                                         mitsuba_gltf()),
     "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
     "power": lambda build: power(),
+    "tilts": lambda build: table(["tilt", "αx, αy", "view at 30°", "60°", "80°"],
+                                 [line.split(" | ") for line in TILTS.read_text("utf-8").splitlines()]),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),
     "peer_densities": lambda build: peer_errors(peer_densities),

@@ -88,6 +88,13 @@ struct Judge {
     RowReader reader;
 };
 
+// |alpha wo|.
+double stretched_length(const RowReader& reader, const double* row) {
+    const Direction o = reader.wo(row);
+    const auto alpha = reader.alpha(row);
+    return std::hypot(alpha[0] * o[0], alpha[1] * o[1], o[2]);
+}
+
 // error / allowance, where NaN is the worst of errors and an infinite allowance no judgement (NaN).
 double settle(double error, double allowance) {
     if (!std::isfinite(allowance)) return std::numeric_limits<double>::quiet_NaN();
@@ -111,6 +118,11 @@ double error_of(const Judge& j, const double* row, const R* exact, const R& size
         if (!is_inverse(j.function, j.reader, row, u, precision(j.real))) return skip;
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
+    if (j.function.unit == Unit::area) {
+        const auto evaluation = reference::find_evaluation<double>(j.function.model);
+        const double condition = absolute_condition(j.function, evaluation, row, precision(j.real));
+        return settle(static_cast<double>(difference), unit * (stretched_length(j.reader, row) + condition));
+    }
     if (j.function.unit == Unit::condition) {
         const auto evaluation = reference::find_evaluation<double>(j.function.model);
         double condition = absolute_condition(j.function, evaluation, row, precision(j.real));
