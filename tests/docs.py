@@ -85,7 +85,7 @@ def accuracy(function):
         back = [f", {number(b['back'])} behind the surface" if b["back"] else "" for b in (single, double)]
         return (f"angle to the {what} map, 99th percentile: {number(single['front'])} eps (1 + condition number)"
                 f"{back[0]}; double {number(double['front'])}{back[1].replace(' behind the surface', '')}")
-    percentile = ", 99th percentile" if function["kind"] == "inverse" else ""
+    percentile = ", 99th percentile" if function["kind"] == "inverse" or function["unit"].startswith("eps (|") else ""
     return f"{number(single['error'])} {function['unit']}{percentile}; double {number(double['error'])}"
 
 

@@ -642,6 +642,14 @@ double condition(std::string_view sampler, const double* in, Precision precision
     return f(in, precision);
 }
 
+double rim_margin(std::string_view name, const double* in, Precision precision) {
+    Reader<double> reader{in, precision};
+    const Vec3<double> wo = normalised(reader.vector());
+    if (name == "vndf_ggx_cap_mass") return std::abs(cap_kappa(wo, cap_in(reader)));
+    if (name != "vndf_ggx_sigma_tilted" || wo.z > 0) return std::numeric_limits<double>::infinity();
+    return std::abs(dot(wo, normalised(reader.vector())));
+}
+
 double cap_margin(std::string_view density, const double* in, Precision precision) {
     constexpr double no_cap = std::numeric_limits<double>::infinity();
     if (density.starts_with("vndf_ggx_pdf_wi_cone2026")) {

@@ -90,7 +90,8 @@ VNDF_FN struct vndf_impl_outline vndf_impl_outline_of(VNDF_REAL3 wo) {
 //     quadrature over directions: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c,
                                          VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
     a = vndf_impl_vertex(a, VNDF_R(0.0));
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
@@ -106,7 +107,8 @@ VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3
 // Accuracy: 64 eps (|alpha wo| + condition number); double 64.
 VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c, VNDF_REAL3 d,
                                      VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
     a = vndf_impl_vertex(a, VNDF_R(0.0));
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
@@ -127,9 +129,9 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
 //     this over that. Of wi below the horizon, too, but not of wi.z < -wo.z.
 // Accuracy: 64 eps (|alpha wo| + condition number); double 64.
 VNDF_FN VNDF_REAL vndf_ggx_cap_mass(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF_REAL2 alpha) {
-    VNDF_REAL mass =
-        vndf_impl_cap_mass(wo, vndf_impl_alpha(alpha.x), vndf_impl_alpha_y(alpha.y), l,
-                           vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_R(2.0)));
+    VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL gap = vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_R(2.0));
+    VNDF_REAL mass = vndf_impl_cap_mass(wo, vndf_impl_arc_alpha(x, y), vndf_impl_arc_alpha(y, x), l, gap);
     return vndf_impl_finite(mass) + vndf_impl_zero(wo.x, wo.y, wo.z) + vndf_impl_zero(l.x, l.y, l.z);
 }
 

@@ -191,7 +191,8 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_tilted2026(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_
 //     Absolute, but for alpha < 1e-3: what is far from the mirror direction has no digits of its own. Double against quadrature
 //     over directions: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_tilted(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL2 alpha) {
-    VNDF_REAL alpha_x = vndf_impl_alpha(alpha.x), alpha_y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL low_x = vndf_impl_alpha(alpha.x), low_y = vndf_impl_alpha_y(alpha.y);
+    VNDF_REAL alpha_x = vndf_impl_arc_alpha(low_x, low_y), alpha_y = vndf_impl_arc_alpha(low_y, low_x);
     VNDF_REAL size = vndf_impl_abs(ng.x) + vndf_impl_max(ng.y, -ng.y),
               scale = vndf_impl_scale(size > VNDF_R(0.0) ? size : VNDF_R(1.0));
     VNDF_REAL x = ng.x * scale, y = ng.y * scale, length2 = VNDF_FMA(x, x, y * y),

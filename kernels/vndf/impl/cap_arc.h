@@ -38,6 +38,13 @@ VNDF_FN VNDF_REAL vndf_impl_arc_rest(VNDF_REAL cosine, VNDF_REAL sine) {
     return small ? VNDF_R(2.0) * t * z * vndf_impl_segment(vndf_impl_min(z, VNDF_R(0.25))) : rest;
 }
 
+// In float an alpha counts as at least 1e-6 and 2^-17 of the other, below which nothing is left of the digits of a cone; areas
+// are as far off as that part of them.
+VNDF_FN VNDF_REAL vndf_impl_arc_alpha(VNDF_REAL alpha, VNDF_REAL other) {
+    VNDF_REAL least = VNDF_DOUBLE ? VNDF_R(0.0) : VNDF_FMA(other, VNDF_R(7.62939453125e-06), VNDF_R(1e-6));
+    return vndf_impl_max(alpha, least);
+}
+
 // A stretched normal of unit length, and the reciprocal of the length that it had.
 struct vndf_impl_arc_end {
     VNDF_REAL x, y, z, rcp;
@@ -82,6 +89,16 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_axis_apart(struct vndf_impl_cap_
         VNDF_R(1.0), VNDF_SQRT(vndf_impl_max(VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)), VNDF_IMPL_LEAST)));
     int apart =
         VNDF_FMA(x2 * wo.x, c.lx, VNDF_FMA(y2 * wo.y, c.ly, wo.z * c.lz)) < VNDF_R(0.0) && size > VNDF_R(0.0);
+    // omega itself, which may be next to nothing.
+    VNDF_REAL gx = VNDF_DIVIDE(x2, VNDF_FMA(k.kappa, x2, k.mu)),
+              gy = VNDF_DIVIDE(y2, rcp > VNDF_R(0.0) ? VNDF_FMA(k.kappa, y2, k.mu) : VNDF_R(1.0)),
+              gz = VNDF_DIVIDE(VNDF_R(1.0), gy > VNDF_R(0.0) ? k.kappa + k.mu : VNDF_R(1.0));
+    VNDF_REAL vv = VNDF_FMA(gx * wo.x, wo.x, VNDF_FMA(gy * wo.y, wo.y, gz * wo.z * wo.z));
+    VNDF_REAL ww = VNDF_FMA(gx * c.lx, c.lx, VNDF_FMA(gy * c.ly, c.ly, gz * c.lz * c.lz));
+    VNDF_REAL omega = VNDF_SQRT(VNDF_DIVIDE(ww, vv > VNDF_R(0.0) ? vv : VNDF_R(1.0)));
+    int defined = k.inside && omega > VNDF_R(0.0);
+    k.omega = defined ? omega : k.omega;
+    k.rcp = defined ? VNDF_DIVIDE(VNDF_R(1.0), omega * k.mu) : k.rcp;
     k.ex = apart ? ex * rcp : k.ex;
     k.ey = apart ? ey * rcp : k.ey;
     k.ez = apart ? ez * rcp : k.ez;
@@ -93,7 +110,8 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_axis_apart(struct vndf_impl_cap_
 VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL3 from,
                                      VNDF_REAL3 to, VNDF_REAL3 l_of, VNDF_REAL one_minus_cos) {
     // With -wo in the cap the same arc backwards, about -l.
-    int turned = vndf_impl_cap_of(wo.x, wo.y, wo.z, l_of, one_minus_cos).kappa < VNDF_R(0.0);
+    VNDF_REAL kappa = vndf_impl_cap_of(wo.x, wo.y, wo.z, l_of, one_minus_cos).kappa;
+    int turned = kappa < VNDF_R(0.0);
     VNDF_REAL ax = turned ? to.x : from.x, ay = turned ? to.y : from.y, az = turned ? to.z : from.z;
     VNDF_REAL bx = turned ? from.x : to.x, by = turned ? from.y : to.y, bz = turned ? from.z : to.z;
     VNDF_REAL side = turned ? VNDF_R(-1.0) : VNDF_R(1.0);
@@ -101,7 +119,7 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
         vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(side * l_of.x, side * l_of.y, side * l_of.z),
                          turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos);
     // Edge-on, wo in the plane: two half planes.
-    cap.kappa = vndf_impl_max(cap.kappa, VNDF_EPSILON * VNDF_EPSILON * cap.wo2);
+    cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * cap.wo2);
     struct vndf_impl_cap_cone c = vndf_impl_cap_axis_apart(
         vndf_impl_cap_cone_of(cap, wo.x, wo.y, wo.z, alpha_x, alpha_y), cap, wo, alpha_x, alpha_y);
     struct vndf_ggx_conic2026 l;
@@ -140,10 +158,24 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
     VNDF_REAL bm = VNDF_SQRT(VNDF_FMA(co_p2 * b1, b1, co_q2 * (am >= VNDF_R(0.0) ? b2 * b2 : b1)));
     VNDF_REAL heights = am * bm;
 
-    // Around e0: all the way where it ends on the left of its beginning.
+    // Around e0: all the way where it ends on the left of its beginning, but not where that may be the rounding of the ends of a
+    // great circle's arc, and its middle is as near.
     VNDF_REAL reach = vndf_impl_abs(wx) + vndf_impl_abs(wy) + vndf_impl_abs(wz);
+    VNDF_REAL hx = vndf_impl_abs(wo.x + ax), hy = vndf_impl_abs(wo.y + ay), hz = vndf_impl_abs(wo.z + az);
+    VNDF_REAL move =
+        VNDF_FMA(vndf_impl_abs(c.ex) * alpha_x, hy + hz,
+                 VNDF_FMA(vndf_impl_abs(c.ey) * alpha_y, hx + hz, vndf_impl_abs(c.ez) * (hx + hy)));
+    VNDF_REAL sx = ax + bx, sy = ay + by, sz = az + bz, s2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, sz * sz)),
+              rcp_s = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(vndf_impl_max(s2, VNDF_EPSILON)));
+    struct vndf_impl_arc_end m = vndf_impl_arc_end_of(VNDF_FMA(sx, rcp_s, wo.x), VNDF_FMA(sy, rcp_s, wo.y),
+                                                      VNDF_FMA(sz, rcp_s, wo.z), alpha_x, alpha_y);
+    VNDF_REAL m1 = rcp_p * VNDF_FMA(e1x, m.x, VNDF_FMA(e1y, m.y, e1z * m.z)),
+              m2 = VNDF_FMA(e2x, m.x, VNDF_FMA(e2y, m.y, e2z * m.z)) * rcp_q;
+    VNDF_REAL to_m = VNDF_FMA(a1, m1, a2 * m2), from_m = VNDF_FMA(b2, m2, b1 * m1);
+    int near_m = to_m > VNDF_R(0.9) && from_m > VNDF_R(0.9) && s2 > VNDF_R(1.0) &&
+                 one_minus_cos == VNDF_R(1.0) && w0 > VNDF_R(-8.0) * VNDF_EPSILON * (move * rcp);
     VNDF_REAL around = vndf_impl_arc_rest(VNDF_FMA(a1, b1, a2 * b2), w0 * (rcp_p * rcp_q));
-    around += w0 < VNDF_R(-8.0) * VNDF_EPSILON * reach ? VNDF_R(2.0) * VNDF_PI : VNDF_R(0.0);
+    around += w0 < VNDF_R(-8.0) * VNDF_EPSILON * reach && !near_m ? VNDF_R(2.0) * VNDF_PI : VNDF_R(0.0);
     VNDF_REAL area = p * q * around * VNDF_R(0.5);
 
     VNDF_REAL less_k = VNDF_DIVIDE(VNDF_R(1.0), vndf_impl_max(root_k, VNDF_IMPL_ARC_LEAST));
@@ -173,7 +205,9 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
     VNDF_REAL v1 = VNDF_FMA(c.x, e1x, VNDF_FMA(c.y, e1y, c.z * e1z));
     VNDF_REAL v2 = VNDF_FMA(c.x, e2x, VNDF_FMA(c.y, e2y, c.z * e2z));
     VNDF_REAL seen = VNDF_FMA(v0, area, VNDF_FMA(-v1, first, VNDF_FMA(v2, second, VNDF_R(0.5) * chord)));
-    return c.inside ? side * seen : VNDF_R(0.0);
+    // Of alphas next to 1e-8, whose squares leave the range of numbers, nothing.
+    int known = vndf_impl_abs(seen) <= VNDF_REAL_MAX;
+    return c.inside && known ? side * seen : VNDF_R(0.0);
 }
 
 // The same of an arc of the horizon of normals, m.z = 0, from one half vector to another, less than half a turn.
@@ -188,11 +222,13 @@ VNDF_FN VNDF_REAL vndf_impl_level_area(VNDF_REAL wo_z, VNDF_REAL alpha_x, VNDF_R
 // What v sees of the normals above the surface that reflect wo into a cap, -wo outside of which is as in `turned` above.
 VNDF_FN VNDF_REAL vndf_impl_cap_mass(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL3 l,
                                      VNDF_REAL one_minus_cos) {
-    int turned = vndf_impl_cap_of(wo.x, wo.y, wo.z, l, one_minus_cos).kappa < VNDF_R(0.0);
+    VNDF_REAL kappa = vndf_impl_cap_of(wo.x, wo.y, wo.z, l, one_minus_cos).kappa;
+    int turned = kappa < VNDF_R(0.0);
     VNDF_REAL side = turned ? VNDF_R(-1.0) : VNDF_R(1.0);
     VNDF_REAL gap = turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos;
     VNDF_REAL3 axis = VNDF_MAKE3(side * l.x, side * l.y, side * l.z);
     struct vndf_impl_cap cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, axis, gap);
+    cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * cap.wo2);
     // Where the rim of the cap has the height -wo.z: along its azimuth, and to either side.
     VNDF_REAL across2 = VNDF_FMA(cap.lx, cap.lx, cap.ly * cap.ly),
               rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(across2 > VNDF_R(0.0) ? across2 : VNDF_R(1.0)));
