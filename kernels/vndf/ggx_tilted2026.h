@@ -187,9 +187,10 @@ VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_tilted2026(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_
 // ng: as vndf_ggx_tilted2026_of takes it.
 // return: per unit area of the macrosurface, in [0, sigma(wo)]: the part of vndf_ggx_sample_wi_tilted2026 that is not lost is this
 //     over the smaller of vndf_ggx_sigma_visible and vndf_ggx_sigma_cap(wo, ng, 1).
-// Accuracy: 64 eps (|alpha wo| + condition number); double 64.
-//     Absolute, but for alpha < 1e-3: what is far from the mirror direction has no digits of its own. Double against quadrature
-//     over directions: 1e-12.
+// Accuracy: 8 eps (|alpha wo| + condition number), 99th percentile; double 4096.
+//     Absolute: of a tail far from the mirror direction digits are lost. In double with alphas down to 1e-8; in float one below
+//     1e-6, or below 2^-17 of the other, counts as that. Where wo is below the surface and within 2^-8 of the plane across ng:
+//     no digits. Double against quadrature over directions: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_sigma_tilted(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL2 alpha) {
     VNDF_REAL low_x = vndf_impl_alpha(alpha.x), low_y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(low_x, low_y), alpha_y = vndf_impl_arc_alpha(low_y, low_x);
