@@ -64,9 +64,10 @@ VNDF_FN VNDF_REAL vndf_impl_outlined(struct vndf_impl_outline o, VNDF_REAL3 wo, 
         VNDF_MAKE3(o.up_x, o.up_y, VNDF_R(0.0)),
         VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0)), VNDF_R(1.0));
     int crosses = vndf_impl_abs(o.down_x) + vndf_impl_max(o.down_y, -o.down_y) > VNDF_R(0.0);
-    VNDF_REAL seen = vndf_impl_abs(o.seen + (crosses ? level : VNDF_R(0.0)));
-    return wo.z > VNDF_R(0.0) ? vndf_impl_min(VNDF_1_PI * seen, vndf_ggx_sigma_visible(wo, alpha))
-                              : VNDF_R(0.0);
+    VNDF_REAL mass = VNDF_1_PI * vndf_impl_abs(o.seen + (crosses ? level : VNDF_R(0.0))),
+              visible = vndf_ggx_sigma_visible(wo, alpha);
+    // Of vectors that are far from unit the sum may be no number.
+    return wo.z > VNDF_R(0.0) ? (mass < visible ? mass : visible) : VNDF_R(0.0);
 }
 
 VNDF_FN struct vndf_impl_outline vndf_impl_outline_of(VNDF_REAL3 wo) {
@@ -85,14 +86,15 @@ VNDF_FN struct vndf_impl_outline vndf_impl_outline_of(VNDF_REAL3 wo) {
 //     are the shorter arcs of great circles; between opposite directions there is none, and nothing is counted.
 // return: per unit area of the macrosurface: in [0, vndf_ggx_sigma_visible(wo, alpha)]; 0 for wo.z <= 0, for a triangle below the
 //     horizon and for one without area.
-// Accuracy: 128 eps (|alpha wo| + condition number), 99th percentile; double 2048.
-//     That is where alphas are below 1e-6 or 1e5 apart: elsewhere 8. Absolute: of a tail far from the mirror direction digits are
-//     lost. In float an alpha below 1e-6, or below 2^-17 of the other, counts as that. Double against quadrature over
-//     directions: 1e-12.
+// Accuracy: 32 eps (|alpha wo| + condition number), 99th percentile; double 4096.
+//     Absolute: of a tail far from the mirror direction digits are lost. In float an alpha below 1e-6, or below 2^-17 of the
+//     other, counts as that; in double it is 4096 because of those. Double against quadrature over directions: 1e-12.
 VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c,
                                          VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
+    VNDF_REAL none =
+        vndf_impl_zero(a.x, a.y, a.z) + vndf_impl_zero(b.x, b.y, b.z) + vndf_impl_zero(c.x, c.y, c.z);
     a = vndf_impl_vertex(a, VNDF_R(0.0));
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
@@ -100,17 +102,19 @@ VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, a, b);
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, b, c);
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, c, a);
-    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y);
+    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y) + vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 
 // The same of a convex quadrilateral, as of a rectangle seen from the surface: a, b, c, d are its vertices in turn.
 // wo, a, b, c, d, alpha, return: as vndf_ggx_triangle_mass; within half of the sphere.
-// Accuracy: 256 eps (|alpha wo| + condition number), 99th percentile; double 2048.
+// Accuracy: 32 eps (|alpha wo| + condition number), 99th percentile; double 4096.
 //     As of a triangle.
 VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c, VNDF_REAL3 d,
                                      VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
+    VNDF_REAL none = vndf_impl_zero(a.x, a.y, a.z) + vndf_impl_zero(b.x, b.y, b.z) +
+                     vndf_impl_zero(c.x, c.y, c.z) + vndf_impl_zero(d.x, d.y, d.z);
     a = vndf_impl_vertex(a, VNDF_R(0.0));
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
@@ -120,7 +124,7 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, b, c);
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, c, d);
     o = vndf_impl_edge(o, wo, alpha_x, alpha_y, d, a);
-    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y);
+    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y) + vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 
 // The integral of D / 4 over a cap wi . l > cos beta: vndf_ggx_sigma_cap without the normals below the surface.
@@ -129,7 +133,7 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
 // return: per unit area of the macrosurface, in [0, sigma(wo)]: less than vndf_ggx_sigma_cap where the cone leaves the hemisphere
 //     of normals, theta_o + theta_l + beta > 180 degrees; what a sample of vndf_ggx_sample_wi_cone2026 keeps of its density is
 //     this over that. Of wi below the horizon, too, but not of wi.z < -wo.z.
-// Accuracy: 16 eps (|alpha wo| + condition number), 99th percentile; double 64.
+// Accuracy: 16 eps (|alpha wo| + condition number), 99th percentile; double 1024.
 //     Absolute. With -wo within 2^-8 of the rim, in the cosine, no digits: the rim swings around it there.
 VNDF_FN VNDF_REAL vndf_ggx_cap_mass(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);

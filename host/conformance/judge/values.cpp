@@ -119,6 +119,10 @@ double error_of(const Judge& j, const double* row, const R* exact, const R& size
     }
     if (size < smallest && difference <= 2 * smallest) return 0;
     if (j.function.unit == Unit::area) {
+        // In float alphas that are so small, or so far apart, count as others.
+        const auto [alpha_x, alpha_y] = j.reader.alpha(row);
+        const double least = 1e-6 + 0x1p-17 * std::max(alpha_x, alpha_y);
+        if (j.real == Real::f32 && std::min(alpha_x, alpha_y) < least) return skip;
         if (reference::rim_margin(j.function.model, row, precision(j.real)) < 0x1p-8) return skip;
         const auto evaluation = reference::find_evaluation<double>(j.function.model);
         const double condition = absolute_condition(j.function, evaluation, row, precision(j.real));
