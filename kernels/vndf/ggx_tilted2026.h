@@ -62,7 +62,10 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_tilted_choice(int other, struct vndf
 VNDF_FN struct vndf_ggx_tilted2026 vndf_ggx_tilted2026_of(struct vndf_ggx_lobe lobe, VNDF_REAL3 ng) {
     struct vndf_ggx_tilted2026 t;
     struct vndf_ggx_conic2026 z = vndf_ggx_conic2026_of(lobe);
-    struct vndf_impl_cap cap = vndf_impl_cap_of(lobe.wo_x, lobe.wo_y, lobe.wo_z, ng, VNDF_R(1.0));
+    // Made dependent on the first cone, so that the two are not packed (impl/stretch.h).
+    int ready = z.twice_sigma <= VNDF_REAL_MAX;
+    VNDF_REAL3 after = VNDF_MAKE3(ready ? ng.x : ng.z, ready ? ng.y : ng.x, ready ? ng.z : ng.y);
+    struct vndf_impl_cap cap = vndf_impl_cap_of(lobe.wo_x, lobe.wo_y, lobe.wo_z, after, VNDF_R(1.0));
     struct vndf_impl_cap_cone k = vndf_impl_cap_axis_apart(
         vndf_impl_cap_cone_of(cap, lobe.wo_x, lobe.wo_y, lobe.wo_z, lobe.alpha_x, lobe.alpha_y), cap,
         VNDF_MAKE3(lobe.wo_x, lobe.wo_y, lobe.wo_z), lobe.alpha_x, lobe.alpha_y);
@@ -76,7 +79,7 @@ VNDF_FN struct vndf_ggx_tilted2026 vndf_ggx_tilted2026_of(struct vndf_ggx_lobe l
     n.twice_sigma = VNDF_R(2.0) * vndf_impl_cap_sigma(cap, k, VNDF_R(1.0));
     // With wo below ng the cone is that of all normals that face wo, which is not the smaller one; and where ng is z they are
     // one and the same, with the digits of the simpler.
-    int tilted = vndf_impl_abs(ng.x) + vndf_impl_max(ng.y, -ng.y) > VNDF_R(0.0);
+    int tilted = VNDF_FMA(ng.x, ng.x, ng.y * ng.y) > VNDF_R(0.0);
     t.about_ng = tilted && k.inside && n.twice_sigma > VNDF_R(0.0) && n.twice_sigma < z.twice_sigma;
     t.map = vndf_impl_tilted_choice(t.about_ng, z, n);
     t.nx = cap.lx;
@@ -112,9 +115,10 @@ VNDF_FN struct vndf_impl_sample vndf_impl_tilted2026(struct vndf_ggx_tilted2026 
     // The other horizon; and the normals of the cone of ng that are below the surface.
     int meets = t.about_ng ? h.z > VNDF_R(0.0) : over > VNDF_R(0.0);
     int kept = meets && o.z > VNDF_R(0.0) && o.pdf > VNDF_R(0.0);
-    o.x = kept ? o.x : VNDF_R(0.0);
+    // Of four shapes: of choices of 0 and a number some would be packed for the vector that is returned (impl/stretch.h).
+    o.x = VNDF_FMA(o.x, kept ? VNDF_R(1.0) : VNDF_R(0.0), VNDF_R(0.0));
     o.y = kept ? o.y : VNDF_R(0.0);
-    o.z = kept ? o.z : VNDF_R(0.0);
+    o.z = vndf_impl_max(kept ? o.z : VNDF_R(-1.0), VNDF_R(0.0));
     o.pdf = kept ? o.pdf : VNDF_R(0.0);
     return o;
 }

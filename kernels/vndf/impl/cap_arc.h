@@ -80,15 +80,10 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_axis_apart(struct vndf_impl_cap_
     VNDF_REAL ex = vndf_impl_difference_of_products(ny, k.qz, nz, k.qy),
               ey = vndf_impl_difference_of_products(nz, k.qx, nx, k.qz),
               ez = vndf_impl_difference_of_products(nx, k.qy, ny, k.qx);
-    VNDF_REAL size = vndf_impl_max(vndf_impl_max(vndf_impl_abs(ex), vndf_impl_abs(ey)), vndf_impl_abs(ez)),
-              scale = vndf_impl_scale(size > VNDF_R(0.0) ? size : VNDF_R(1.0));
-    ex *= scale;
-    ey *= scale;
-    ez *= scale;
-    VNDF_REAL rcp = VNDF_DIVIDE(
-        VNDF_R(1.0), VNDF_SQRT(vndf_impl_max(VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)), VNDF_IMPL_LEAST)));
-    int apart =
-        VNDF_FMA(x2 * wo.x, c.lx, VNDF_FMA(y2 * wo.y, c.ly, wo.z * c.lz)) < VNDF_R(0.0) && size > VNDF_R(0.0);
+    VNDF_REAL size2 = VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)),
+              rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(vndf_impl_max(size2, VNDF_IMPL_LEAST)));
+    int apart = VNDF_FMA(x2 * wo.x, c.lx, VNDF_FMA(y2 * wo.y, c.ly, wo.z * c.lz)) < VNDF_R(0.0) &&
+                size2 > VNDF_IMPL_LEAST;
     // omega itself, which may be next to nothing.
     VNDF_REAL gx = VNDF_DIVIDE(x2, VNDF_FMA(k.kappa, x2, k.mu)),
               gy = VNDF_DIVIDE(y2, rcp > VNDF_R(0.0) ? VNDF_FMA(k.kappa, y2, k.mu) : VNDF_R(1.0)),
