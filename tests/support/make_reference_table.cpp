@@ -1296,7 +1296,7 @@ void cones(Table& table) {
 void tilts(Table& table) {
     std::size_t k = 0;
     for (const Lobe& l : lobes) {
-        if (l.ax < 1e-2 || l.ay < 1e-2 || l.cos_theta > 0.99 || l.cos_theta < 0.1) continue;
+        if (l.ax < 1e-2 || l.ax >= 1 || l.ay < 1e-2 || l.cos_theta > 0.99 || l.cos_theta < 0.1) continue;
         std::vector<double> w;
         direction(l, w);
         const auto join = [](std::vector<double> a, std::initializer_list<double> b) {
