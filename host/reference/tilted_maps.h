@@ -52,8 +52,8 @@ Sample<R> ggx_tilted2026(const Arguments<R>& in) {
 template <class R>
 R ggx_pdf_wi_tilted2026(const Vec3<R>& wo, const Vec3<R>& ng, const Vec3<R>& wi, const R& alpha_x,
                         const R& alpha_y) {
-    const Vec3<R> o = normalised(wo), h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
-    const R sigma = tilted(o, ng, alpha_x, alpha_y).sigma();
+    const Vec3<R> h = normalised<R>({wo.x + wi.x, wo.y + wi.y, wo.z + wi.z});
+    const R sigma = tilted(wo, ng, alpha_x, alpha_y).sigma();
     if (!(wi.z > 0) || !(dot(wi, ng) > 0) || !(h.z > 0) || !(sigma > 0)) return R(0);
     return Ggx::ndf(h, alpha_x, alpha_y) / (4 * sigma);
 }
