@@ -13,9 +13,9 @@ constexpr Ndf GGX = Ndf::ggx, BECKMANN = Ndf::beckmann, ANY = Ndf::any;
 constexpr Method EXACT = Method::exact, APPROXIMATE = Method::approximate;
 constexpr Domain SPHERE = Domain::sphere;
 constexpr double NONE = 0;
-constexpr Unit PLAIN = Unit::plain, EXPONENT = Unit::exponent, CONDITION = Unit::condition;
+constexpr Unit PLAIN = Unit::plain, EXPONENT = Unit::exponent, CONDITION = Unit::condition, AREA = Unit::area;
 constexpr auto VISIBLE = Support::visible, MIRRORED = Support::mirrored, CAP = Support::cap,
-               ABOVE = Support::above;
+               ABOVE = Support::above, LUNE = Support::lune;
 // UPPER is a domain and a support.
 constexpr struct {
     operator Domain() const { return Domain::upper; }
@@ -169,6 +169,11 @@ std::vector<std::string> nearest_names(std::string_view name, std::size_t count)
     return names;
 }
 
+bool may_miss(const Function& sampler) {
+    const Function* density = find_function(sampler.density);
+    return density && density->support == Support::lune;
+}
+
 bool has_exponent(Ndf ndf) {
     switch (ndf) {
         case Ndf::beckmann:
@@ -218,6 +223,8 @@ std::string_view to_string(Unit unit) {
             return "eps (1 + 2 q)";
         case Unit::condition:
             return "eps (1 + condition number)";
+        case Unit::area:
+            return "eps (|alpha wo| + condition number)";
     }
     return {};
 }
@@ -242,6 +249,8 @@ std::string_view to_string(Support support) {
             return "cap";
         case Support::above:
             return "above";
+        case Support::lune:
+            return "lune";
     }
     return {};
 }

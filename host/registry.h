@@ -12,9 +12,9 @@ enum class Kind { sampler, density, term, pair, inverse, geometry };
 enum class Method { exact, approximate };
 enum class Domain { sphere, upper };
 // What a relative error is counted in, beside epsilon: 1, 1 + 2 q with the exponent q of a Beckmann function, or 1 + the
-// condition number.
-enum class Unit { plain, exponent, condition };
-enum class Support { upper, visible, mirrored, cap, above };
+// condition number; of an error, not a relative one: |alpha wo| + the condition number of the value.
+enum class Unit { plain, exponent, condition, area };
+enum class Support { upper, visible, mirrored, cap, above, lune };
 
 // What `strict` promises, in units of 2^-24 (float) or 2^-53 (double); registry.def says of what.
 struct SamplerBounds {
@@ -94,6 +94,9 @@ std::vector<std::string> nearest_names(std::string_view name, std::size_t count 
 inline bool is_plain_sampler(const Function& function) {
     return function.kind == Kind::sampler && !function.with_pdf;
 }
+
+// Whether samples may be lost, a zero vector with density 0: where that density has not all of the samplers' region.
+bool may_miss(const Function& sampler);
 
 // Whether the distribution is exponential in the slopes, so that errors grow with the exponent.
 bool has_exponent(Ndf);

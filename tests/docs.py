@@ -26,6 +26,7 @@ RESULTS = ROOT / "bench/results/pocl-3.1.json"
 H100 = ROOT / "bench/results/nvidia-h100.json"
 INSTRUCTIONS = ROOT / "bench/results/instructions.json"
 CALLS = ROOT / "bench/results/calls.txt"
+TILTS = ROOT / "bench/results/tilts.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
 CAPS = ROOT / "bench/results/caps.json"
@@ -85,7 +86,7 @@ def accuracy(function):
         back = [f", {number(b['back'])} behind the surface" if b["back"] else "" for b in (single, double)]
         return (f"angle to the {what} map, 99th percentile: {number(single['front'])} eps (1 + condition number)"
                 f"{back[0]}; double {number(double['front'])}{back[1].replace(' behind the surface', '')}")
-    percentile = ", 99th percentile" if function["kind"] == "inverse" else ""
+    percentile = ", 99th percentile" if function["kind"] == "inverse" or function["unit"].startswith("eps (|") else ""
     return f"{number(single['error'])} {function['unit']}{percentile}; double {number(double['error'])}"
 
 
@@ -414,6 +415,8 @@ TABLES = {
                                         mitsuba_gltf()),
     "mitsuba_bsdf": lambda build: table(["BSDF", "of", "between", "ours", "Mitsuba's", "Mitsuba's, exact G1"], mitsuba_bsdf()),
     "power": lambda build: power(),
+    "tilts": lambda build: table(["tilt", "αx, αy", "view at 30°", "60°", "80°"],
+                                 [line.split(" | ") for line in TILTS.read_text("utf-8").splitlines()]),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),
     "cap_times": lambda build: cap_times(),

@@ -46,12 +46,19 @@ struct LightView {
     // Whether -wo is outside the cap, by more than 2^-12 of its size if that is below 60 degrees.
     bool outside = true;
 };
+// cos(beta) + wo . l, with 1 + wo . l as half a square: neither this nor 1 - cos(beta) is rounded where they are all but
+// nothing; and of 90 degrees, where wo . l may be that.
+template <class R>
+R cap_kappa(const Vec3<R>& wo, const Light<R>& cap) {
+    const Vec3<R> sum{wo.x + cap.l.x, wo.y + cap.l.y, wo.z + cap.l.z};
+    return value_of(cap.one_minus_cos) == 1 ? R(dot(wo, cap.l) + (1 - cap.one_minus_cos))
+                                            : R(dot(sum, sum) / 2 - cap.one_minus_cos);
+}
+
 template <class R>
 LightView<R> light_view(const Vec3<R>& wo, const Light<R>& cap, const R& alpha_x, const R& alpha_y) {
-    // 1 + wo . l as half a square: neither this nor 1 - cos(beta) is rounded where they are all but nothing.
-    const Vec3<R> sum{wo.x + cap.l.x, wo.y + cap.l.y, wo.z + cap.l.z};
     const R length = hypotenuse(hypotenuse(R(alpha_x * wo.x), R(alpha_y * wo.y)), wo.z);
-    const R kappa = dot(sum, sum) / 2 - cap.one_minus_cos, edge = cap.one_minus_cos * Real<R>(0x1p-12);
+    const R kappa = cap_kappa(wo, cap), edge = cap.one_minus_cos * Real<R>(0x1p-12);
     return {wo,
             cap.l,
             alpha_x,
@@ -70,8 +77,7 @@ LightView<S> widened(const LightView<R>& v) {
     const Light<S> cap{wide(v.l), S(value_of(v.one_minus_cos)), S(1)};
     LightView<S> w{wide(v.wo), cap.l, S(value_of(v.alpha_x)), S(value_of(v.alpha_y)), cap.one_minus_cos,
                    S(0),       S(0)};
-    const Vec3<S> sum{w.wo.x + w.l.x, w.wo.y + w.l.y, w.wo.z + w.l.z};
-    w.kappa = dot(sum, sum) / 2 - w.one_minus_cos;
+    w.kappa = cap_kappa(w.wo, cap);
     return w;
 }
 
@@ -86,7 +92,9 @@ void cap_matrix(const LightView<R>& c, R (&q)[3][3]) {
         }
     // 2 wo.z l.z - kappa = 1 - cos(beta) - |l - r|^2 / 2, r the mirror image of wo.
     const R x = o[0] + l[0], y = o[1] + l[1], z = l[2] - o[2];
-    q[2][2] = c.one_minus_cos - (x * x + y * y + z * z) / 2;
+    q[2][2] = value_of(c.one_minus_cos) == 1
+                  ? R(o[2] * l[2] - o[0] * l[0] - o[1] * l[1] - (1 - c.one_minus_cos))
+                  : R(c.one_minus_cos - (x * x + y * y + z * z) / 2);
 }
 
 // The frame across e0 that the axes are counted from where the cone is round or v lies across e1: b = z x e0, a x b = e0.
@@ -140,7 +148,10 @@ Cone<R> cap_cone(const LightView<R>& v) {
         const W g2 = dot(g, g), twice = 2 * dot(wide.wo, g) / g2;
         const Vec3<W> off{twice * g.x - wide.wo.x - wide.l.x, twice * g.y - wide.wo.y - wide.l.y,
                           twice * g.z - wide.wo.z - wide.l.z};
-        return W(g2 * (wide.one_minus_cos - dot(off, off) / 2) / dot(m, m));
+        const Vec3<W> mirrored{twice * g.x - wide.wo.x, twice * g.y - wide.wo.y, twice * g.z - wide.wo.z};
+        const W depth =
+            wide.one_minus_cos == 1 ? dot(mirrored, wide.l) : W(wide.one_minus_cos - dot(off, off) / 2);
+        return W(g2 * depth / dot(m, m));
     };
     W value[3] = {rayleigh(0), rayleigh(1), rayleigh(2)};
     int order[3] = {0, 1, 2};

@@ -9,6 +9,7 @@
 #include "reference/cap_maps.h"
 #include "reference/integrals.h"
 #include "reference/terms.h"
+#include "reference/tilted_maps.h"
 
 namespace vndf::reference {
 namespace {
@@ -73,6 +74,8 @@ const Distribution::Known& Distribution::known(std::string_view density) {
         {"vndf_ggx_pdf_wi_conic2026_lobe", Kind::conic, wi, ggx_conic2026<double>},
         {"vndf_ggx_pdf_wi_cone2026", Kind::cone, wi, ggx_cone2026<double>},
         {"vndf_ggx_pdf_wi_cone2026_lobe", Kind::cone, wi, ggx_cone2026<double>},
+        {"vndf_ggx_pdf_wi_tilted2026", Kind::lune, wi, ggx_tilted2026<double>},
+        {"vndf_ggx_pdf_wi_tilted2026_lobe", Kind::lune, wi, ggx_tilted2026<double>},
         {"vndf_ggx_pdf_wm_walter2007", Kind::ggx, wm_plain, ggx_walter2007<double>},
         {"vndf_beckmann_pdf_wm", Kind::beckmann, wm, beckmann_jakob2014<double>},
         {"vndf_beckmann_pdf_wm_lobe", Kind::beckmann, wm, beckmann_jakob2014<double>},
@@ -123,7 +126,8 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
     sigma_ = std::pow(std::sin(v.nu / 2), 2);
     tan_half_ = std::sin(v.theta / 2) / std::sin(v.nu / 2);
     const bool behind = !(wo.z > 0);  // where every reflection is that of the plain cap
-    kind_ = behind && ndf_of(known_.kind) == Ndf::ggx && known_.kind != Kind::cone ? Kind::ggx : known_.kind;
+    kind_ = known_.kind;
+    if (behind && ndf_of(kind_) == Ndf::ggx && !by_form()) kind_ = Kind::ggx;
     const Slopes<double> s = beckmann_slopes(v.sin_theta, v.cos_theta);
     a_ = s.a, weight_ = s.weight;
     const Bound<double> b = known_.polygon ? polygon_bound(v, wo) : bound(v, wo);
@@ -132,18 +136,23 @@ Distribution::Distribution(std::string_view density, const Lobe& lobe, Precision
         k_ = 0, cap_ = visible_area();
         tabulate_azimuths();
     }
-    if (kind_ == Kind::cone) {
-        find_cone();
+    if (by_form()) {
+        if (kind_ == Kind::cone)
+            find_cone(lobe_.l, lobe_.one_minus_cos);
+        else
+            find_cone(lobe_.ng, 1), find_corners();
         cap_ = 1;
         tabulate_azimuths();
         cap_ = mass_.back();
         for (std::size_t i = 0; i < mass_.size(); ++i) mass_[i] /= cap_, slope_[i] /= cap_;
     }
+    if (kind_ == Kind::lune)
+        kept_ = sigma_tilted() / tilted(wo, normalised<double>(vec3(lobe_.ng)), alpha_x_, alpha_y_).sigma();
 }
 
 // The form of the cone in the slopes (x, y, 1), and its range of azimuths: all if it holds the normal of the surface.
-void Distribution::find_cone() {
-    const Light<double> cap = light_of<double>(vec3(lobe_.l), lobe_.one_minus_cos, precision_);
+void Distribution::find_cone(const Vec3d& axis, double one_minus_cos) {
+    const Light<double> cap = light_of<double>(vec3(axis), one_minus_cos, precision_);
     double q[3][3];
     cap_matrix(light_view<double>(vec3(wo_), cap, alpha_x_, alpha_y_), q);
     for (int i = 0; i < 3; ++i)
@@ -153,9 +162,22 @@ void Distribution::find_cone() {
     const double xx = q[0][2] * q[0][2] - q[0][0] * q[2][2], yy = q[1][2] * q[1][2] - q[1][1] * q[2][2],
                  xy = q[0][2] * q[1][2] - q[0][1] * q[2][2];
     const double swing = std::hypot(xx - yy, 2 * xy);
+    if (xx + yy > swing) return;  // it holds the opposite of that normal
     middle_ = std::atan2(2 * xy, xx - yy) / 2;
     half_ = std::acos(std::clamp(-(xx + yy) / swing, -1., 1.)) / 2;
     if (q[0][2] * std::cos(middle_) + q[1][2] * std::sin(middle_) < 0) middle_ += middle_ > 0 ? -pi_d : pi_d;
+}
+
+// The normals that reflect along both horizons.
+void Distribution::find_corners() {
+    const Vec3d& g = lobe_.ng;
+    const double size = std::hypot(g.x, g.y);
+    for (int i = 0; i < 2 && size > 0; ++i) {
+        const double side = i == 0 ? 1 / size : -1 / size;
+        corners_[i] = std::atan2((wo_.y + side * g.x) / alpha_y_, (wo_.x - side * g.y) / alpha_x_);
+    }
+    // A cone that is in part below the horizon: of both nappes the one that faces wo.
+    if (half_ > 0 && std::cos(corners_[0] - middle_) < 0) middle_ += middle_ > 0 ? -pi_d : pi_d;
 }
 
 // Of a cone that does not hold the normal of the surface the density ends as a root: not so in the sine's argument.
@@ -269,7 +291,7 @@ void Distribution::pivots_of(std::size_t n, const T* x, const T* y, const T* z, 
             const double turn = std::atan2(oy, ox) / (2 * pi_d);
             p1[i] = clip(turn < 0 ? turn + 1 : turn);
             p2[i] = clip((1 + cos_ - s * gz) / (2 * cap_));
-        } else if constexpr (kind == Kind::conic || kind == Kind::cone) {
+        } else if constexpr (kind == Kind::conic || kind == Kind::cone || kind == Kind::lune) {
             const double azimuth = std::atan2(gy, gx), phi = place_of(azimuth);
             const auto above = std::upper_bound(azimuth_.begin() + 1, azimuth_.end() - 1, phi);
             const std::size_t j = static_cast<std::size_t>(above - azimuth_.begin()) - 1;
@@ -319,6 +341,8 @@ void Distribution::pivots(std::size_t n, const T* x, const T* y, const T* z, dou
             return pivots_of<T, Kind::conic>(n, x, y, z, p1, p2);
         case Kind::cone:
             return pivots_of<T, Kind::cone>(n, x, y, z, p1, p2);
+        case Kind::lune:
+            return pivots_of<T, Kind::lune>(n, x, y, z, p1, p2);
         case Kind::beckmann:
             return pivots_of<T, Kind::beckmann>(n, x, y, z, p1, p2);
     }
@@ -337,6 +361,7 @@ std::array<double, 3> Distribution::draw(double u1, double u2) const {
     in.rotation = 0;
     const Light<double> cap = light_of<double>(vec3(lobe_.l), lobe_.one_minus_cos, precision_);
     in.l = cap.l, in.one_minus_cos = cap.one_minus_cos, in.cap_part = cap.part;
+    in.ng = normalised<double>(vec3(lobe_.ng));
     const Vec3<double> d = known_.map(in).direction;
     return {d.x, d.y, d.z};
 }
@@ -346,6 +371,7 @@ double Distribution::pivot_rounding() const {
     for (const double u1 : {0.2, 0.5, 0.8})
         for (const double u2 : {0.2, 0.5, 0.8}) {
             std::array<double, 3> d = draw(u1, u2);
+            if (is_lost(d)) continue;
             double p[2] = {}, q[2] = {};
             pivots(1, &d[0], &d[1], &d[2], &p[0], &p[1]);
             for (int i = 0; i < 3; ++i) {
@@ -355,11 +381,10 @@ double Distribution::pivot_rounding() const {
                 d[i] = exact;
                 for (int j = 0; j < 2; ++j) {
                     const double change = std::abs(p[j] - q[j]);
-                    worst = std::max(
-                        worst,
-                        (kind_ == Kind::bounded || kind_ == Kind::conic || kind_ == Kind::cone) && j == 0
-                            ? std::min(change, 1 - change)
-                            : change);
+                    worst = std::max(worst,
+                                     (kind_ == Kind::bounded || kind_ == Kind::conic || by_form()) && j == 0
+                                         ? std::min(change, 1 - change)
+                                         : change);
                 }
             }
         }

@@ -25,6 +25,7 @@ struct Lobe {
     double alpha_x = 1, alpha_y = 1;  // below 1e-8 as 1e-8
     Vec3d l{0, 0, 1};                 // the centre of a cap, and its 1 - cos(beta)
     double one_minus_cos = 1;
+    Vec3d ng{0, 0, 1};  // a geometric normal in the local frame, with wo above it
 };
 
 // First and second moments of a unit direction d, and the variances of the quantities averaged: the standard
@@ -46,6 +47,11 @@ struct QuadratureRule {
     std::vector<double> probability;  // weight * density; sums to 1
     std::size_t size() const { return x.size(); }
 };
+
+// Whether a sample is lost, a zero vector.
+inline bool is_lost(const std::array<double, 3>& d) {
+    return d[0] == 0 && d[1] == 0 && d[2] == 0;
+}
 
 // Edges of a histogram in theta (polar) and phi (azimuth), ascending; phi starts anywhere and spans 2 pi.
 struct Bins {
@@ -90,10 +96,17 @@ class Distribution {
     // density of those reflections alone. 1 behind the surface.
     double reflection_probability() const { return kind_ == Kind::conic ? cap_ / sigma_ : 1; }
 
+    // The part of a sampler's samples that are not lost, by quadrature over the azimuth: below 1 for reflections above a
+    // geometric normal alone. All else here is of the samples that are not lost.
+    double kept() const { return kept_; }
+
+    // sigma of what is above both normals, likewise.
+    double sigma_tilted() const { return length_ * cap_; }
+
   private:
     // GGX reflections from the front: bounded, on their own cap; conic, above the horizon. From anywhere: cone, in a cap of
-    // directions whose cone of normals is above the surface.
-    enum class Kind { ggx, bounded, conic, cone, beckmann };
+    // directions whose cone of normals is above the surface; lune, above a geometric normal, too.
+    enum class Kind { ggx, bounded, conic, cone, lune, beckmann };
     enum class Ndf { ggx, beckmann };
     static constexpr Ndf ndf_of(Kind kind) {
         switch (kind) {
@@ -101,6 +114,7 @@ class Distribution {
             case Kind::bounded:
             case Kind::conic:
             case Kind::cone:
+            case Kind::lune:
                 return Ndf::ggx;
             case Kind::beckmann:
                 return Ndf::beckmann;
@@ -118,8 +132,11 @@ class Distribution {
     double normaliser() const;
     double visible_area() const;
     void tabulate_azimuths();
-    void find_cone();
+    bool by_form() const { return kind_ == Kind::cone || kind_ == Kind::lune; }
+    void find_cone(const Vec3d& axis, double one_minus_cos);
+    void find_corners();
     Range cone_range(double c, double s, double slope, double turn) const;
+    Range lune_range(double c, double s, double slope, double turn) const;
     double azimuth_of(double place) const;
     double place_of(double phi) const;
     double polar_mass(double slope, double from, double to) const;
@@ -150,12 +167,14 @@ class Distribution {
     double a_, weight_;  // Beckmann: cot(theta) and N(a)
     double k_, gap_;     // bounded: o_z > -k cos, 1 - k
     double
-        cap_;  // bounded: (1 + k cos) / 2; conic: that of what is above the horizon; cone: of what is in the cap
-    // Conic, cone: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
+        cap_;  // bounded: (1 + k cos) / 2; conic: that of what is above the horizon; cone, lune: of what is in it
+    // Conic, cone, lune: the distribution function of the stretched azimuth from azimuth_.front() to one turn on, and its slope.
     std::vector<double> azimuth_, mass_, slope_;
-    // Cone: its form q m_j m_k in slopes; its azimuths are middle_ + half_ sin(azimuth_), all of them where half_ is 0.
+    // Cone, lune: its form q m_j m_k in slopes; its azimuths are middle_ + half_ sin(azimuth_), all of them where half_ is 0.
     std::array<std::array<double, 3>, 3> q_{};
     double middle_ = 0, half_ = 0;
+    std::array<double, 2> corners_{};  // lune: the azimuths at which both horizons meet
+    double kept_ = 1;
 };
 
 }  // namespace vndf::reference

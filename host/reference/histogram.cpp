@@ -50,6 +50,7 @@ Bins Distribution::bins(std::size_t n_theta, std::size_t n_phi) const {
         double theta, phi;
         const std::array<double, 3> d =
             draw(std::fmod(0.5 + 0.7548776662466927 * i, 1), std::fmod(0.5 + 0.5698402909980532 * i, 1));
+        if (is_lost(d)) continue;
         angles(1, &d[0], &d[1], &d[2], &theta, &phi);
         thetas.push_back(theta);
         phis.push_back(phi < start ? phi + 2 * pi_d : phi);
@@ -63,6 +64,7 @@ double Distribution::normaliser() const {
         case Kind::bounded:
         case Kind::conic:
         case Kind::cone:
+        case Kind::lune:
             return cap_;
         case Kind::ggx:
             return sigma_;
@@ -77,6 +79,7 @@ Distribution::Range Distribution::range(double phi) const {
     const double c = std::cos(phi), s = std::sin(phi);
     const double cos_turn = c * ex_ + s * ey_, turn = (s * ex_ - c * ey_) / cos_turn, slope = sin_ * cos_turn;
     if (kind_ == Kind::cone) return cone_range(c, s, slope, turn);
+    if (kind_ == Kind::lune) return lune_range(c, s, slope, turn);
     if (kind_ == Kind::bounded || kind_ == Kind::conic) {
         // 2 (slope r + cos) > (1 - k) cos (1 + r^2), or cos (1 + |alpha r|^2): r below the positive root
         const double gap =
@@ -116,7 +119,38 @@ Distribution::Range Distribution::cone_range(double c, double s, double slope, d
     return {std::max(0., std::min(first, second)), std::max(0., std::max(first, second)), slope, turn};
 }
 
-// Conic, cone: the part of the mass at this stretched azimuth with stretched slopes shorter than `tangent`.
+// The form of ng between its roots or beyond one of them, whichever faces wo, and what is above the horizon and faces wo: a
+// convex cone of normals, an interval at each azimuth.
+Distribution::Range Distribution::lune_range(double c, double s, double slope, double turn) const {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double a = c * c * q_[0][0] + 2 * c * s * q_[0][1] + s * s * q_[1][1],
+                 b = c * q_[0][2] + s * q_[1][2], at_pole = q_[2][2];
+    double lo = 0, hi = infinity;
+    const double square = b * b - a * at_pole;
+    if (square > 0) {
+        const double sum = b + std::copysign(std::sqrt(square), b), x = -sum / a, y = -at_pole / sum;
+        if (a < 0)
+            lo = std::min(x, y), hi = std::max(x, y);
+        else if (slope > 0)
+            lo = std::max(x, y);
+        else
+            hi = std::min(x, y);
+    } else if (a < 0) {
+        return {0, 0, slope, turn};
+    }
+    // Facing wo, and, from the front, above the horizon: 2 (slope r + cos) > cos (1 + |alpha r|^2).
+    if (slope < 0) hi = std::min(hi, -cos_ / slope);
+    if (cos_ < 0) lo = slope > 0 ? std::max(lo, -cos_ / slope) : infinity;
+    if (cos_ > 0) {
+        const double stretch = alpha_x_ * c * (alpha_x_ * c) + alpha_y_ * s * (alpha_y_ * s);
+        const double root = std::sqrt(slope * slope + stretch * cos_ * cos_);
+        hi = std::min(hi, slope > 0 ? (slope + root) / (stretch * cos_) : cos_ / (root - slope));
+    }
+    lo = std::max(lo, 0.), hi = std::min(hi, 1e150);  // whose square is finite
+    return lo < hi ? Range{lo, hi, slope, turn} : Range{0, 0, slope, turn};
+}
+
+// Conic, cone, lune: the part of the mass at this stretched azimuth with stretched slopes shorter than `tangent`.
 double Distribution::share_below(double phi, double tangent) const {
     const Range in = range(phi);
     const double whole = polar_mass(in.slope, in.lo, in.hi);
@@ -128,10 +162,10 @@ void Distribution::cumulative(double phi, const std::vector<double>& tan_theta, 
     const Range in = range(phi);
     const double ax = alpha_x_ * std::cos(phi), ay = alpha_y_ * std::sin(phi);
     const double unstretch = 1 / std::sqrt(ax * ax + ay * ay), scale = 1 / (pi_d * normaliser());
-    const bool behind = cos_ < 0 && kind_ != Kind::cone;
+    const bool behind = cos_ < 0 && !by_form();
     // The integral from 0 to r, or behind the surface from r to infinity, where nothing cancels.
     const auto ggx = [&](double r) {
-        if (kind_ == Kind::cone) return polar_mass(in.slope, in.lo, r);
+        if (by_form()) return polar_mass(in.slope, in.lo, r);
         return behind ? ggx_polar_rest(cos_, in.slope, r) : ggx_polar_mass(cos_, in.slope, r);
     };
     const auto beckmann = [&](double r) {
@@ -210,11 +244,14 @@ std::vector<double> Distribution::azimuth_breaks() const {
     for (int i = -2; i <= 6; ++i) {
         around(i * pi_d / 2, 8);
         around(e + i * pi_d / 2, i % 2 == 0 ? 14 : 8);
-        if (kind_ == Kind::cone) around(middle_ + i * pi_d / 2, 14);
+        if (by_form()) around(middle_ + i * pi_d / 2, 14);
     }
-    for (const double turn : {-2 * pi_d, 0., 2 * pi_d})
+    for (const double turn : {-2 * pi_d, 0., 2 * pi_d}) {
+        if (kind_ == Kind::lune)
+            for (const double corner : corners_) around(corner + turn, 8);
         if (half_ > 0)
             for (int j = -8; j <= 8; ++j) breaks.push_back(middle_ + turn + half_ * std::sin(j * pi_d / 16));
+    }
     std::sort(breaks.begin(), breaks.end());
     return breaks;
 }

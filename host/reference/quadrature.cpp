@@ -43,7 +43,7 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
     for (int i = -4; i <= 8; ++i)
         for (const double x : {i * pi_d / 2, e + i * pi_d / 2})
             if (x >= -1e-12 && x <= 2 * pi_d + 1e-12) breaks.push_back(x);
-    if (kind_ == Kind::cone)
+    if (by_form())
         for (int i = -4; i <= 8; ++i)
             if (const double x = middle_ + i * pi_d / 2; x >= 0 && x <= 2 * pi_d && !(half_ > 0))
                 breaks.push_back(x);
@@ -51,6 +51,10 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
         std::erase_if(breaks, [&](double x) { return !(std::abs(x - middle_) < half_ * (1 - 1e-9)); });
         breaks.insert(breaks.end(), {middle_ - half_, middle_, middle_ + half_});
     }
+    for (const double corner : corners_)
+        for (const double x : {corner - 2 * pi_d, corner, corner + 2 * pi_d})
+            if (kind_ == Kind::lune && (half_ > 0 ? std::abs(x - middle_) < half_ : x > 0 && x < 2 * pi_d))
+                breaks.push_back(x);
     std::sort(breaks.begin(), breaks.end());
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         if (!(breaks[i + 1] - breaks[i] > 1e-13)) continue;
@@ -63,8 +67,7 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
             const auto add_node = [&](double log_r, double w) {
                 const double r = std::exp(log_r), q = 1 + r * r;
                 const double area = weight * w * r * r;
-                const double cosine =
-                    in.lo > 0 && kind_ != Kind::cone ? in.slope * (r - in.lo) : in.slope * r + cos_;
+                const double cosine = in.lo > 0 && !by_form() ? in.slope * (r - in.lo) : in.slope * r + cos_;
                 add({r * c, r * s, area, area * scale * std::max(0., cosine) / (q * q)}, rule);
             };
             panels<10>(lo, hi, width, add_node);

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "reference/cap_maps.h"
+#include "reference/arc_maps.h"
 #include "reference/materials.h"
 #include "reference/terms.h"
 #include "reference/world.h"
@@ -43,15 +43,15 @@ Vec3<R> vec3(const R* in) {
     return {in[0], in[1], in[2]};
 }
 
-enum class Layout { wo_alpha_u, wo_alpha1_u, wo_n_alpha1_u, wo_cap_alpha_u, alpha_u };
+enum class Layout { wo_alpha_u, wo_alpha1_u, wo_n_alpha1_u, wo_cap_alpha_u, wo_ng_alpha_u, alpha_u };
 constexpr bool one_alpha(Layout layout) {
     return layout == Layout::wo_alpha1_u || layout == Layout::wo_n_alpha1_u;
 }
 constexpr std::size_t first_alpha(Layout layout) {
-    return layout == Layout::alpha_u          ? 0
-           : layout == Layout::wo_n_alpha1_u  ? 6
-           : layout == Layout::wo_cap_alpha_u ? 7
-                                              : 3;
+    return layout == Layout::alpha_u                                            ? 0
+           : layout == Layout::wo_n_alpha1_u || layout == Layout::wo_ng_alpha_u ? 6
+           : layout == Layout::wo_cap_alpha_u                                   ? 7
+                                                                                : 3;
 }
 constexpr std::size_t scalars(Layout layout) {
     return first_alpha(layout) + (one_alpha(layout) ? 1 : 2) + 2;
@@ -66,6 +66,10 @@ Arguments<R> arguments(Layout layout, const R* in, Precision precision) {
     }
     if (layout == Layout::wo_n_alpha1_u) {
         a.n = normalised(vec3(in));
+        in += 3;
+    }
+    if (layout == Layout::wo_ng_alpha_u) {
+        a.ng = normalised(vec3(in));
         in += 3;
     }
     if (layout == Layout::wo_cap_alpha_u) {
@@ -161,6 +165,8 @@ struct Entry {
     X(vndf_ggx_sample_wi_conic2026_isotropic, ggx_conic2026, wo_alpha1_u)                 \
     X(vndf_ggx_sample_wi_cone2026, ggx_cone2026, wo_cap_alpha_u)                          \
     X(vndf_ggx_sample_wi_cone2026_lobe, ggx_cone2026, wo_cap_alpha_u)                     \
+    X(vndf_ggx_sample_wi_tilted2026, ggx_tilted2026, wo_ng_alpha_u)                       \
+    X(vndf_ggx_sample_wi_tilted2026_lobe, ggx_tilted2026, wo_ng_alpha_u)                  \
     X(vndf_ggx_sample_wm_walter2007, ggx_walter2007, alpha_u)                             \
     X(vndf_beckmann_sample_wm_heitz_deon2014, beckmann_heitz_deon2014, wo_alpha_u)        \
     X(vndf_beckmann_sample_wm_jakob2014, beckmann_jakob2014, wo_alpha_u)                  \
@@ -413,6 +419,33 @@ R ggx_cap_probability_of(Reader<R> in) {
     return p < 1 ? p : R(1);
 }
 template <class R>
+R ggx_pdf_wi_tilted2026_of(Reader<R> in) {
+    const Vec3<R> wo = in.vector(), ng = normalised(in.vector()), wi = in.vector();
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_pdf_wi_tilted2026(wo, ng, wi, ax, ay);
+}
+template <class R>
+R ggx_sigma_tilted_of(Reader<R> in) {
+    const Vec3<R> wo = normalised(in.vector()), ng = normalised(in.vector());
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_sigma_tilted(wo, ng, ax, ay);
+}
+template <class R>
+R ggx_cap_mass_of(Reader<R> in) {
+    const Vec3<R> wo = normalised(in.vector());
+    const Light<R> cap = cap_in(in);
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_cap_mass(wo, cap, ax, ay);
+}
+template <class R, int vertices>
+R ggx_polygon_mass_of(Reader<R> in) {
+    const Vec3<R> wo = normalised(in.vector());
+    std::vector<Vec3<R>> at;
+    for (int i = 0; i < vertices; ++i) at.push_back(normalised(in.vector()));
+    const R ax = in.alpha(), ay = in.alpha();
+    return ggx_polygon_mass(wo, at, ax, ay);
+}
+template <class R>
 void evaluate_cap_inverse(const R* in, R* out, Precision precision) {
     Reader<R> reader{in, precision};
     const Vec3<R> wo = reader.vector();
@@ -547,6 +580,12 @@ constexpr Entry<R> entries[] = {
     {"vndf_ggx_invert_wi_conic2026", evaluate_inverse<R>},
     {"vndf_ggx_pdf_wi_cone2026", evaluate_term<R, ggx_pdf_wi_cone2026_of<R>>},
     {"vndf_ggx_pdf_wi_cone2026_lobe", evaluate_term<R, ggx_pdf_wi_cone2026_of<R>>},
+    {"vndf_ggx_sigma_tilted", evaluate_term<R, ggx_sigma_tilted_of<R>>},
+    {"vndf_ggx_cap_mass", evaluate_term<R, ggx_cap_mass_of<R>>},
+    {"vndf_ggx_triangle_mass", evaluate_term<R, ggx_polygon_mass_of<R, 3>>},
+    {"vndf_ggx_quad_mass", evaluate_term<R, ggx_polygon_mass_of<R, 4>>},
+    {"vndf_ggx_pdf_wi_tilted2026", evaluate_term<R, ggx_pdf_wi_tilted2026_of<R>>},
+    {"vndf_ggx_pdf_wi_tilted2026_lobe", evaluate_term<R, ggx_pdf_wi_tilted2026_of<R>>},
     {"vndf_ggx_sigma_cap", evaluate_term<R, ggx_sigma_cap_of<R>>},
     {"vndf_ggx_cap_probability", evaluate_term<R, ggx_cap_probability_of<R>>},
     {"vndf_ggx_invert_wi_cone2026", evaluate_cap_inverse<R>},
@@ -603,6 +642,14 @@ double condition(std::string_view sampler, const double* in, Precision precision
     return f(in, precision);
 }
 
+double rim_margin(std::string_view name, const double* in, Precision precision) {
+    Reader<double> reader{in, precision};
+    const Vec3<double> wo = normalised(reader.vector());
+    if (name == "vndf_ggx_cap_mass") return std::abs(cap_kappa(wo, cap_in(reader)));
+    if (name != "vndf_ggx_sigma_tilted" || wo.z > 0) return std::numeric_limits<double>::infinity();
+    return std::abs(dot(wo, normalised(reader.vector())));
+}
+
 double cap_margin(std::string_view density, const double* in, Precision precision) {
     constexpr double no_cap = std::numeric_limits<double>::infinity();
     if (density.starts_with("vndf_ggx_pdf_wi_cone2026")) {
@@ -610,6 +657,12 @@ double cap_margin(std::string_view density, const double* in, Precision precisio
         reader.vector();
         const Light<double> cap = cap_in(reader);
         return chord_margin(reader.vector(), cap) / (precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
+    }
+    if (density.starts_with("vndf_ggx_pdf_wi_tilted2026")) {
+        Reader<double> reader{in, precision};
+        reader.vector();
+        const Vec3<double> ng = normalised(reader.vector());
+        return horizon_margin(reader.vector(), ng) / (precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
     }
     const bool polygon = density.starts_with("vndf_ggx_pdf_wi_eto2023_polygon");
     if (!density.starts_with("vndf_ggx_pdf_wi_eto2023")) return no_cap;  // other arguments, too

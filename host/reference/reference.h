@@ -45,4 +45,9 @@ double condition(std::string_view sampler, const double* in, Precision precision
 // have no bound beyond the horizon of normals, other densities no cap: infinity.
 double cap_margin(std::string_view density, const double* in, Precision precision);
 
+// How far -wo is from the rim of a region whose area runs through normals below the surface, vndf_ggx_cap_mass and, from behind
+// the surface, vndf_ggx_sigma_tilted: cos(beta) + wo . l. There the rim swings around -wo, and rounding decides where it is cut.
+// Other regions: infinity.
+double rim_margin(std::string_view name, const double* in, Precision precision);
+
 }  // namespace vndf::reference

@@ -16,6 +16,7 @@ struct Arguments {
     R rotation;        // of e, 0
     Vec3<R> l;         // the axis of a cap, and its 1 - cos(beta), in parts: cap_maps.h
     R one_minus_cos, cap_part;
+    Vec3<R> ng;  // a geometric normal in the local frame
 };
 
 template <class R>

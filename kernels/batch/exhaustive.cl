@@ -130,8 +130,28 @@ VNDF_FN int vndf_exhaustive_in_light(VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_CAP_ALPHA_U(d, inside) \
     vndf_exhaustive_in_light(VNDF_MAKE3(l_x, l_y, l_z), one_minus_cos, d)
 #define VNDF_EXHAUSTIVE_FACES_WI_CONE2026_LOBE_U(d, inside) VNDF_EXHAUSTIVE_FACES_WI_WO_CAP_ALPHA_U(d, inside)
+#define VNDF_EXHAUSTIVE_UPPER_WI_WO_NG_ALPHA_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
+#define VNDF_EXHAUSTIVE_UPPER_WI_TILTED2026_LOBE_U(d) VNDF_EXHAUSTIVE_UPPER_WI_WO_ALPHA_U(d)
+#define VNDF_EXHAUSTIVE_FACES_WI_WO_NG_ALPHA_U(d, inside) \
+    ((d.z > VNDF_R(0.0)) & (VNDF_EXHAUSTIVE_DOT(d, ng) >= VNDF_EXHAUSTIVE_SLACK))
+#define VNDF_EXHAUSTIVE_FACES_WI_TILTED2026_LOBE_U(d, inside) \
+    VNDF_EXHAUSTIVE_FACES_WI_WO_NG_ALPHA_U(d, inside)
 #define VNDF_EXHAUSTIVE_FACES_WI_WO_ALPHA1_U(d, inside) \
     inside(VNDF_MAKE3(wo_x, wo_y, wo_z), VNDF_MAKE2(alpha, alpha), d)
+
+// Whether a sample may be lost, and is: a zero vector with density 0, of which nothing else is asked.
+#define VNDF_EXHAUSTIVE_LOST_WO_ALPHA_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_LOBE_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_BECKMANN_LOBE_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_ALPHA_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_WO_N_ALPHA1_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_WO_ALPHA1_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_CONIC2026_LOBE_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_WO_CAP_ALPHA_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_CONE2026_LOBE_U(d) 0
+#define VNDF_EXHAUSTIVE_LOST_WO_NG_ALPHA_U(d) \
+    ((d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(0.0)) & (d.w == VNDF_R(0.0)))
+#define VNDF_EXHAUSTIVE_LOST_TILTED2026_LOBE_U(d) VNDF_EXHAUSTIVE_LOST_WO_NG_ALPHA_U(d)
 
 #define VNDF_EXHAUSTIVE_ARGUMENT(v) const VNDF_REAL lobe_##v,
 #define VNDF_EXHAUSTIVE_BIND(v) VNDF_REAL v = lobe_##v;
@@ -149,12 +169,13 @@ VNDF_FN int vndf_exhaustive_in_light(VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF
             const VNDF_REAL4 d = function(VNDF_CALL_##arguments);                                           \
             const int finite = vndf_exhaustive_finite(d.x) & vndf_exhaustive_finite(d.y) &                  \
                                vndf_exhaustive_finite(d.z) & vndf_exhaustive_finite(d.w);                   \
-            const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d);                                              \
-            const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d);                              \
+            const int lost = VNDF_EXHAUSTIVE_LOST_##arguments(d);                                           \
+            const int unit = VNDF_EXHAUSTIVE_UNIT_##result(d) | lost;                                       \
+            const int upper = VNDF_EXHAUSTIVE_UPPER_##result##_##arguments(d) | lost;                       \
             const int normal = (d.x == VNDF_R(0.0)) & (d.y == VNDF_R(0.0)) & (d.z == VNDF_R(1.0));          \
-            const int faces =                                                                               \
-                defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d, inside) : normal | !documented;   \
-            const int density = defined ? d.w > VNDF_R(0.0) : d.w == VNDF_R(0.0);                           \
+            const int faces = defined ? VNDF_EXHAUSTIVE_FACES_##result##_##arguments(d, inside) | lost      \
+                                      : normal | !documented;                                               \
+            const int density = defined ? (d.w > VNDF_R(0.0)) | lost : d.w == VNDF_R(0.0);                  \
             not_finite += !finite;                                                                          \
             not_unit += !unit;                                                                              \
             not_upper += !upper;                                                                            \

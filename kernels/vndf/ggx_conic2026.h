@@ -249,9 +249,10 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_normal_of(struct vndf_ggx_
     return h;
 }
 
-VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_sampled(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
+// above: by the cone, not by the plain cap.
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_sampled_by(struct vndf_ggx_conic2026 l, VNDF_REAL2 u,
+                                                                 int above) {
     struct vndf_impl_disk d = vndf_impl_disk_of(u);
-    int above = l.wo_z > VNDF_R(0.0);
     VNDF_REAL spread = above ? l.spread : vndf_impl_conic_cap_spread(l.cap, d.rest);
     VNDF_REAL radius = VNDF_SQRT(d.u2 * spread), ex = radius * d.cosine, ey = radius * d.sine;
     struct vndf_impl_conic_normal front =
@@ -262,6 +263,9 @@ VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_sampled(struct vndf_ggx_co
     h.y = above ? front.y : h.y;
     h.z = above ? front.z : h.z;
     return h;
+}
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_conic_sampled(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
+    return vndf_impl_conic_sampled_by(l, u, l.wo_z > VNDF_R(0.0));
 }
 VNDF_FN struct vndf_impl_sample vndf_impl_conic2026(struct vndf_ggx_conic2026 l, VNDF_REAL2 u) {
     return vndf_impl_conic_reflect(vndf_impl_conic_sampled(l, u), l.wo_x, l.wo_y, l.wo_z, l.alpha_x,

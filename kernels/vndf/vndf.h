@@ -62,6 +62,8 @@
 #include "ggx_benyoub2024.h"
 #include "ggx_conic2026.h"
 #include "ggx_cone2026.h"
+#include "ggx_tilted2026.h"
+#include "ggx_polygon.h"
 #include "ggx_walter2007.h"
 
 #include "beckmann.h"

@@ -40,6 +40,7 @@ inline const std::vector<Mutant>& mutants() {
 #include "mutants/ggx_heitz2018.h"
 #include "mutants/ggx_heitz_deon2014.h"
 #include "mutants/ggx_lobe.h"
+#include "mutants/ggx_tilted2026.h"
 #include "mutants/ggx_world.h"
 #include "mutants/impl_beckmann_lobe.h"
 #include "mutants/impl_beckmann_slopes.h"

@@ -190,10 +190,11 @@ std::string without_lobe(const std::string& name) {
     return name.ends_with("_lobe") ? name.substr(0, name.size() - 5) : name;
 }
 
+// Those whose samples are never lost; of the others clvndf check takes the same statistics of what is kept.
 std::vector<const Function*> samplers() {
     std::vector<const Function*> result;
     for (const Function& f : functions())
-        if (is_plain_sampler(f)) result.push_back(&f);
+        if (is_plain_sampler(f) && !may_miss(f)) result.push_back(&f);
     return result;
 }
 

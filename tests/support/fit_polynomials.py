@@ -189,6 +189,11 @@ def arc(z):
     return mp.atan(t) / (2 * mp.pi * t)
 
 
+def segment(z):
+    """(atan(t) / t - 1 / (1 + t^2)) / t^2 in z = t^2; for z = -t^2 < 0 (1 / (1 - t^2) - atanh(t) / t) / t^2."""
+    return mp.fsum((-z) ** k * mpf(2 * k + 2) / (2 * k + 3) for k in range(120))
+
+
 KEPLER_END = mp.cbrt(6 * mp.pi) ** 2
 
 
@@ -255,6 +260,8 @@ CASES = [
          pieces=[piece(lambda z: mp.cos(kepler_half(z)), *[(mpf("1e-30"), KEPLER_END)] * 2, absolute)]),
     dict(name="ARC", what="atan(t) / (2 pi t) in z = t^2, 0 <= t <= 1", kind="relative",
          degree=dict(float=9, double=20), pieces=[piece(arc, *[(mpf("1e-30"), mpf(1))] * 2)]),
+    dict(name="SEGMENT", what="(atan(t) / t - 1 / (1 + t^2)) / t^2 in z = t^2, -1/4 <= z <= 1/4", kind="relative",
+         degree=dict(float=8, double=18), pieces=[piece(segment, *[(-mpf(1) / 4, mpf(1) / 4)] * 2)]),
 ]
 
 

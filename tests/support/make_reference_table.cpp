@@ -3,7 +3,7 @@
 //
 //   g++ -std=c++20 -O2 tests/support/make_reference_table.cpp -o make_reference_table
 //   ./make_reference_table > tests/data/reference_50digits.csv          (some ten minutes)
-// (with the argument samplers, terms, conic, materials, frames or cones: that part alone)
+// (with the argument samplers, terms, conic, materials, frames, cones or tilts: that part alone)
 //
 // Everything starts from the distributions of slopes
 //   GGX 1 / (pi (1 + x^2 + y^2)^2),  Beckmann exp(-x^2 - y^2) / pi  (alpha = 1),
@@ -485,6 +485,66 @@ Reals invert_cap(const Light& c, const Vec& given) {
                        (dot(wi, c.l) - 1 + c.omc) * dot(h, h) / dot(h_std, h_std));
 }
 
+// --- What is seen of regions of normals: v . V / pi, by quadrature along the great circles that bound their reflections ---
+
+// From a to b, not opposite to it, along the chord p: 1/2 v . (g x g') / |g|^2 of the half vector g = wo |p| + p, stretched back,
+// whose length makes no difference.
+Real arc(const Vec& wo, const Real& ax, const Real& ay, const Vec& a, const Vec& b) {
+    const Vec v = {ax * wo.x, ay * wo.y, wo.z}, e = b - a;
+    const auto back = [&](const Vec& w) { return Vec{w.x / ax, w.y / ay, w.z}; };
+    const auto f = [&](const Real& t) {
+        const Vec p = a + t * e;
+        const Real r = norm(p);
+        const Vec g = back(r * wo + p), d = back(Real(dot(p, e) / r) * wo + e);
+        return Real(dot(v, cross(g, d)) / dot(g, g) / 2);
+    };
+    // In parts, so that a peak is never far from an end.
+    Real sum = 0;
+    for (int i = 0; i < 4; ++i) sum += integrate(f, Real(i) / 4, Real(i + 1) / 4);
+    return sum;
+}
+Real polygon_mass(const Vec& wo, std::vector<Vec> at, const Real& ax, const Real& ay) {
+    std::vector<Vec> above;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const Vec a = at[i], b = at[(i + 1) % at.size()];
+        if (a.z > 0) above.push_back(a);
+        if ((a.z > 0) != (b.z > 0)) {
+            const Vec x = unit(a + Real(a.z / (a.z - b.z)) * (b - a));
+            above.push_back({x.x, x.y, 0});
+        }
+    }
+    Real sum = 0;
+    for (std::size_t i = 0; i < above.size(); ++i)
+        sum += arc(wo, ax, ay, above[i], above[(i + 1) % above.size()]);
+    return abs(sum) / pi;
+}
+// The lune as two triangles, from one corner to the middle of either horizon and the other corner.
+Real sigma_tilted(const Vec& wo, const Vec& ng, const Real& ax, const Real& ay) {
+    const Vec z = {0, 0, 1}, left = unit(cross(z, ng)), right = -1 * left;
+    const Vec far_z = unit(cross(left, z)), far_ng = unit(cross(ng, left));
+    return (arc(wo, ax, ay, right, far_z) + arc(wo, ax, ay, far_z, left) + arc(wo, ax, ay, left, far_ng) +
+            arc(wo, ax, ay, far_ng, right)) /
+           pi;
+}
+
+// Reflections above z and ng: of the smaller cone.
+Light about(const Vec& wo, const Vec& ng, const Real& ax, const Real& ay) {
+    return {wo, ng, 1, ax, ay};
+}
+bool is_about_ng(const Light& c) {
+    return dot(c.wo, c.l) > 0 && sigma_cap(c) < sigma_visible(c.wo, c.ax, c.ay);
+}
+Real pdf_wi_tilted(const Light& c, const Vec& wi) {
+    if (wi.z <= 0 || dot(wi, c.l) <= 0) return 0;
+    return is_about_ng(c) ? pdf_wi_cap(c, c.wo + wi) : pdf_wi_conic(c.wo, wi, c.ax, c.ay);
+}
+Sample sample_tilted(const Light& c, const Real& u1, const Real& u2) {
+    const Vec wi =
+        is_about_ng(c) ? sample_cap(c, u1, u2).direction : conic(c.wo, c.ax, c.ay, u1, u2).direction;
+    const Real pdf = pdf_wi_tilted(c, wi);
+    return pdf > 0 ? Sample{wi, pdf} : Sample{{0, 0, 0}, 0};
+}
+
 // The bound of the polygon: 1 / (1 - k) is the largest of the three candidates.
 Real polygon_k(const Vec& view, const Real& ax, const Real& ay) {
     const Vec wo = unit(view);
@@ -764,6 +824,26 @@ std::map<std::string, Evaluation> evaluations() {
     all["vndf_ggx_invert_wi_cone2026"] = [](const Reals& in) {
         return invert_cap(light(in, 10), vec(in, 7));
     };
+    all["vndf_ggx_sample_wi_tilted2026_with_pdf"] = [](const Reals& in) {
+        return list(sample_tilted(about(unit(vec(in, 0)), unit(vec(in, 3)), in[6], in[7]), in[8], in[9]));
+    };
+    all["vndf_ggx_pdf_wi_tilted2026"] = [](const Reals& in) {
+        return Reals{pdf_wi_tilted(about(vec(in, 0), unit(vec(in, 3)), in[9], in[10]), vec(in, 6))};
+    };
+    all["vndf_ggx_sigma_tilted"] = [](const Reals& in) {
+        return Reals{sigma_tilted(unit(vec(in, 0)), unit(vec(in, 3)), in[6], in[7])};
+    };
+    all["vndf_ggx_triangle_mass"] = [](const Reals& in) {
+        return Reals{polygon_mass(unit(vec(in, 0)), {unit(vec(in, 3)), unit(vec(in, 6)), unit(vec(in, 9))},
+                                  in[12], in[13])};
+    };
+    all["vndf_ggx_quad_mass"] = [](const Reals& in) {
+        return Reals{polygon_mass(unit(vec(in, 0)),
+                                  {unit(vec(in, 3)), unit(vec(in, 6)), unit(vec(in, 9)), unit(vec(in, 12))},
+                                  in[15], in[16])};
+    };
+    // Without the normals below the surface, of which these caps have none.
+    all["vndf_ggx_cap_mass"] = all["vndf_ggx_sigma_cap"];
     // About n and by cosines: the local functions of a direction with the same angle to the axis.
     const auto about = [](const Vec& n, const Vec& w) {
         const Vec axis = unit(n);
@@ -1194,6 +1274,8 @@ void cones(Table& table) {
         ++k;
         table.row("vndf_ggx_sample_wi_cone2026_with_pdf", join({l.ax, l.ay, u1, u2}));
         table.row("vndf_ggx_sigma_cap", join({l.ax, l.ay}));
+        if (std::min(l.ax, l.ay) > 1e-3 && omc > 1e-2 && std::abs(w[2]) + w[5] > 0.5)
+            table.row("vndf_ggx_cap_mass", join({l.ax, l.ay}));
         table.row("vndf_ggx_cap_probability", join({l.ax, l.ay}));
         const Light cap = light({w[0], w[1], w[2], w[3], w[4], w[5], omc, l.ax, l.ay}, 7);
         const Vec wi = sample_cap(cap, Real(0.31), Real(0.38)).direction;
@@ -1207,6 +1289,48 @@ void cones(Table& table) {
         if (l.cos_theta > 1e-3) add(l, 0, 0.125 * l.cos_theta * l.cos_theta);
         add(l, 0.5, 0x1p-12);
         add(l, 0.25, 0x1p-5);
+    }
+}
+
+// Normals tilted by 20 and 60 degrees, and polygons about the mirror image of wo, some of them through the horizon.
+void tilts(Table& table) {
+    std::size_t k = 0;
+    for (const Lobe& l : lobes) {
+        if (l.ax < 1e-2 || l.ax >= 1 || l.ay < 1e-2 || l.cos_theta > 0.99 || l.cos_theta < 0.1) continue;
+        std::vector<double> w;
+        direction(l, w);
+        const auto join = [](std::vector<double> a, std::initializer_list<double> b) {
+            a.insert(a.end(), b);
+            return a;
+        };
+        for (const double tilt : {0.35, 1.05})
+            for (const double turn : {0.4, 2.6}) {
+                const double ng[] = {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
+                                     std::cos(tilt)};
+                const std::vector<double> in = join(w, {ng[0], ng[1], ng[2]});
+                const double u1 = us[k % std::size(us)][0], u2 = us[k % std::size(us)][1];
+                ++k;
+                table.row("vndf_ggx_sigma_tilted", join(in, {l.ax, l.ay}));
+                const std::vector<double> sample = join(in, {l.ax, l.ay, u1, u2});
+                table.row("vndf_ggx_sample_wi_tilted2026_with_pdf", sample);
+                const Sample s = sample_tilted(about({w[0], w[1], w[2]}, {ng[0], ng[1], ng[2]}, l.ax, l.ay),
+                                               Real(0.31), Real(0.38));
+                if (s.pdf > 0)
+                    table.row(
+                        "vndf_ggx_pdf_wi_tilted2026",
+                        join(in, {static_cast<double>(s.direction.x), static_cast<double>(s.direction.y),
+                                  static_cast<double>(s.direction.z), l.ax, l.ay}));
+                // Three and four corners around it, in turn.
+                const double size = 0.3 * tilt;
+                const double corners[][2] = {{1, 0.2}, {-0.3, 0.9}, {-1.1, -0.1}, {0.2, -1}};
+                std::vector<double> polygon = w;
+                for (const auto& c : corners) {
+                    if (&c == corners + 3) table.row("vndf_ggx_triangle_mass", join(polygon, {l.ax, l.ay}));
+                    polygon.insert(polygon.end(), {-w[0] + size * c[0], -w[1] + size * c[1],
+                                                   w[2] + size * (c[0] * w[0] + c[1] * w[1]) / w[2]});
+                }
+                table.row("vndf_ggx_quad_mass", join(polygon, {l.ax, l.ay}));
+            }
     }
 }
 
@@ -1327,4 +1451,5 @@ int main(int argc, char** argv) {
     if (part.empty() || part == "materials") materials(table);
     if (part.empty() || part == "frames") frames(table);
     if (part.empty() || part == "cones") cones(table);
+    if (part.empty() || part == "tilts") tilts(table);
 }

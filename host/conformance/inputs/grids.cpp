@@ -79,7 +79,7 @@ std::vector<Point> lobes(const Function& function, bool quick) {
             points.push_back(make_point(wo, lobe_alphas()[row], {1, 0}, n, {0.5, 0.5}, 1.5));
         }
     }
-    for (Point& point : points) place_cap(point, true);
+    for (Point& point : points) place_cap(point, true), place_tilt(point, true);
     points = distinct(function, points);
     if (!quick) return points;
     const std::size_t stride = points.size() / 12;  // one for each alpha, through the angles in turn

@@ -63,21 +63,38 @@ Direction direction(double cos_theta, double phi) {
     return {sin_theta * x, sin_theta * y, cos_theta};
 }
 
-void place_cap(Point& point, bool contained) {
-    std::uint64_t seed = contained;
-    for (const double x : {point.wo[0], point.wo[2], point.wi[0], point.wi[2], point.alpha[0], point.alpha[1],
-                           point.u[0], point.u[1]})
-        seed = SplitMix64(seed ^ std::bit_cast<std::uint64_t>(x)).bits();
-    SplitMix64 random(seed);
-    const auto anywhere = [&] {
-        const double azimuth =
-            6.28318530717958648 * random.uniform();  // compilers take arguments in any order
-        return direction(2 * random.uniform() - 1, azimuth);
-    };
-    const auto about = [&](const Direction& centre, double by) {
+namespace {
+
+// Directions of a point's own, the same from every compiler.
+class Draws {
+  public:
+    Draws(const Point& point, std::uint64_t seed) : random_(of(point, seed)) {}
+
+    double uniform() { return random_.uniform(); }
+    std::uint64_t bits() { return random_.bits(); }
+    Direction anywhere() {
+        const double azimuth = 6.28318530717958648 * uniform();  // compilers take arguments in any order
+        return direction(2 * uniform() - 1, azimuth);
+    }
+    Direction about(const Direction& centre, double by) {
         const Direction off = anywhere();
         return normalised({centre[0] + by * off[0], centre[1] + by * off[1], centre[2] + by * off[2]});
-    };
+    }
+
+  private:
+    static std::uint64_t of(const Point& point, std::uint64_t seed) {
+        for (const double x : {point.wo[0], point.wo[2], point.wi[0], point.wi[2], point.alpha[0],
+                               point.alpha[1], point.u[0], point.u[1]})
+            seed = SplitMix64(seed ^ std::bit_cast<std::uint64_t>(x)).bits();
+        return seed;
+    }
+    SplitMix64 random_;
+};
+
+}  // namespace
+
+void place_cap(Point& point, bool contained) {
+    Draws random(point, contained);
     const Direction& o = point.wo;
     const int half = static_cast<int>(random.bits() % 8), exponent = static_cast<int>(random.bits() % 24);
     double size = half == 0 ? 1 : std::ldexp(1 + random.uniform(), contained ? -exponent / 2 : -exponent);
@@ -87,16 +104,16 @@ void place_cap(Point& point, bool contained) {
             point.l = {-o[0], -o[1], o[2]};
             break;
         case 1:
-            point.l = anywhere();
+            point.l = random.anywhere();
             break;
         case 2:
             point.l = {0, 0, 1};
             break;
         case 3:
-            point.l = about({-o[0], -o[1], -o[2]}, chord);
+            point.l = random.about({-o[0], -o[1], -o[2]}, chord);
             break;
         default:
-            point.l = about(point.wi, chord * random.uniform());
+            point.l = random.about(point.wi, chord * random.uniform());
     }
     if (contained) {
         // theta_o + theta_l + beta < pi, where that leaves room for a cap; else about z.
@@ -108,6 +125,81 @@ void place_cap(Point& point, bool contained) {
         size = std::min(size, 0.9 * room(point.l));
     }
     point.one_minus_cos = size;
+}
+
+void place_tilt(Point& point, bool contained) {
+    Draws random(point, contained ? 3 : 2);
+    const Direction& o = point.wo;
+    const auto kind = random.bits() % 16;
+    const double by =
+        std::ldexp(1 + random.uniform(), -static_cast<int>(random.bits() % (contained ? 4 : 20)));
+    const Direction off = random.anywhere();
+    switch (kind) {
+        case 0:
+            point.ng = {0, 0, 1};
+            break;
+        case 1:
+            point.ng = {0, 0, -1};
+            break;
+        case 2:
+            point.ng = normalised({off[0], off[1], 0});
+            break;
+        case 3:
+            point.ng = normalised({o[1] * off[2] - o[2] * off[1], o[2] * off[0] - o[0] * off[2],
+                                   o[0] * off[1] - o[1] * off[0]});
+            break;
+        case 4:
+            point.ng = random.about({-o[0], -o[1], -o[2]}, by);
+            break;
+        case 5:
+        case 6:
+        case 7:
+            point.ng = off;
+            break;
+        default:
+            point.ng = random.about({0, 0, 1}, by);
+    }
+    if (!contained) return;
+    // wo above it, and room above both.
+    const double length = std::sqrt(dot(o, o)),
+                 along = (o[0] * point.ng[0] + o[1] * point.ng[1] + o[2] * point.ng[2]) / length;
+    if (!(along > 0.02) || !(point.ng[2] > -0.9)) point.ng = o[2] > 0 ? Direction{0, 0, 1} : o;
+}
+
+void place_polygon(Point& point) {
+    Draws random(point, 4);
+    const Direction& o = point.wo;
+    const double size = std::ldexp(1 + random.uniform(), -static_cast<int>(random.bits() % 16));
+    Direction centre = random.about(point.wi, size);
+    switch (random.bits() % 8) {
+        case 0:
+            centre = random.anywhere();
+            break;
+        case 1:
+            centre = normalised({centre[0], centre[1], 0});
+            break;
+        case 2:
+            centre = {-o[0], -o[1], o[2]};
+            break;
+        case 3:
+            centre = o;
+            break;
+    }
+    // Two vectors across it.
+    const Direction off = random.anywhere();
+    const auto cross = [](const Direction& a, const Direction& b) {
+        return Direction{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    const Direction u = normalised(cross(centre, off)), v = cross(centre, u);
+    const double flat = random.bits() % 16 == 0 ? 0 : 1, turned = random.bits() % 2 ? 1 : -1;
+    // Points of a circle are in convex position.
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto [c, s] =
+            circle_point(1.57079632679489662 * (static_cast<double>(k) + 0.9 * random.uniform()));
+        for (int j = 0; j < 3; ++j)
+            point.polygon[k][j] = centre[j] + 2 * size * (c * u[j] + flat * turned * s * v[j]);
+        point.polygon[k] = normalised(point.polygon[k]);
+    }
 }
 
 Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,
@@ -131,6 +223,8 @@ Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched nor
     point.wm = local ? wm : to_frame(n, wm);
     point.wi = local ? wi : to_frame(n, wi);
     place_cap(point, false);
+    place_tilt(point, false);
+    place_polygon(point);
     return point;
 }
 
@@ -151,6 +245,11 @@ double Point::scalar(std::string_view name) const {
                                          {"wi", &wi},
                                          {"t", &t},
                                          {"l", &l},
+                                         {"ng", &ng},
+                                         {"a", &polygon[0]},
+                                         {"b", &polygon[1]},
+                                         {"c", &polygon[2]},
+                                         {"d", &polygon[3]},
                                          {"w", &wo}})
         if (const double* value = component(prefix, *values)) return *value;
     if (const double* value = component("alpha", alpha)) return *value;

@@ -31,6 +31,11 @@ struct Point {
     std::array<double, 2> alpha{1, 1}, slope{0, 0}, u{0.5, 0.5};
     Direction l{0, 0, 1};  // a cap, of any size, at or about wi, the mirror image of wo, z, -wo or anywhere
     double one_minus_cos = 1;
+    Direction ng{
+        0, 0, 1};  // a geometric normal: z or -z, tilted by any angle, across z or wo, about -wo or anywhere
+    // A convex polygon of directions, in turn, of any size, about wi, on the horizon, seen edge-on or anywhere; or none, all in one
+    // point or on one great circle.
+    std::array<Direction, 4> polygon{};
     double x = 0, eta = 1.5;
 
     // The scalar of this column name ("wo_x", "alpha", ...). Throws std::invalid_argument if there is none.
@@ -48,6 +53,12 @@ Direction direction(double cos_theta, double phi);
 
 // A cap for the point, drawn by its other numbers. Contained: one whose cone of normals is above the surface.
 void place_cap(Point& point, bool contained);
+
+// A geometric normal for the point, likewise. Contained: with wo and some of the reflections above it.
+void place_tilt(Point& point, bool contained);
+
+// A polygon for the point, likewise.
+void place_polygon(Point& point);
 
 // wo and normal are given in the frame of n.
 Point make_point(const Direction& wo, std::array<double, 2> alpha, Stretched normal, const Direction& n,

@@ -16,6 +16,7 @@ RowReader::RowReader(const Function& function)
     : wo_(column(function, "wo_x")),
       n_(column(function, "n_x")),
       l_(column(function, "l_x")),
+      ng_(column(function, "ng_x")),
       wm_(column(function, "wm_x")),
       wi_(column(function, "wi_x")),
       alpha_(column(function, "alpha_x")),
@@ -75,7 +76,14 @@ reference::Lobe RowReader::lobe(const double* row) const {
     const auto [nx, ny, nz] = n(row);
     const auto [alpha_x, alpha_y] = alpha(row);
     const auto [lx, ly, lz] = l(row);
-    return {{ox, oy, oz}, {nx, ny, nz}, alpha_x, alpha_y, {lx, ly, lz}, has_cap() ? row[l_ + 3] : 1};
+    const auto [gx, gy, gz] = ng(row);
+    return {.wo = {ox, oy, oz},
+            .n = {nx, ny, nz},
+            .alpha_x = alpha_x,
+            .alpha_y = alpha_y,
+            .l = {lx, ly, lz},
+            .one_minus_cos = has_cap() ? row[l_ + 3] : 1,
+            .ng = {gx, gy, gz}};
 }
 
 double RowReader::cos_theta_o(const double* row) const {
@@ -116,7 +124,7 @@ double distance(const Function& function, const std::array<double, 4>& a, const 
 
 double absolute_condition(const Function& function, reference::Evaluation<double> evaluation,
                           const double* row, reference::Precision precision, int output, double step) {
-    std::array<double, 16> in{};
+    std::array<double, 20> in{};
     std::array<double, 4> low{}, high{};
     std::copy(row, row + function.inputs.size(), in.begin());
     double condition = 0;

@@ -22,6 +22,7 @@ class RowReader {
     bool has_wo() const { return wo_ >= 0; }
     bool has_n() const { return n_ >= 0; }
     bool has_cap() const { return l_ >= 0; }
+    bool has_ng() const { return ng_ >= 0; }
     bool has_wm() const { return wm_ >= 0; }
     bool has_wi() const { return wi_ >= 0; }
 
@@ -30,6 +31,7 @@ class RowReader {
     }  // (0, 0, 1) if there is none; also for w
     Direction n(const double* row) const { return read(row, n_); }
     Direction l(const double* row) const { return read(row, l_); }
+    Direction ng(const double* row) const { return read(row, ng_); }
     Direction wm(const double* row) const { return read(row, wm_); }
     Direction wi(const double* row) const { return read(row, wi_); }
     std::array<double, 2> alpha(const double* row) const;
@@ -50,7 +52,7 @@ class RowReader {
 
   private:
     static Direction read(const double* row, int column);
-    int wo_, n_, l_, wm_, wi_, alpha_, alpha_columns_;
+    int wo_, n_, l_, ng_, wm_, wi_, alpha_, alpha_columns_;
     int cos_o_, cos_m_, cos_i_;
 };
 

@@ -92,14 +92,17 @@ Finding unit(runtime::Evaluator& evaluator, const Function& sampler, const Point
     const Table table = tabulate(sampler, points, real);
     const Columns results = evaluate(evaluator, sampler, table);
     Errors errors;
-    for (std::size_t i = 0; i < table.rows(); ++i) errors.add(length_error(results, i) / epsilon(real), i);
+    const bool misses = may_miss(sampler);
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        if (!misses || !reference::is_lost({results[0][i], results[1][i], results[2][i]}))
+            errors.add(length_error(results, i) / epsilon(real), i);
     const double limit = length_bound(sampler.result) * invariant_slack(options.math);
     return make_finding("unit length for any length of wo", errors.max(), limit, "eps", errors, sampler,
                         table);
 }
 
 // wo = -n, where nothing is visible: a normal on the horizon, its reflection -wo, or (0, 0, 1) from a map that ends at the
-// horizon; of a cap some unit vector; with density 0.
+// horizon; of a cap some unit vector; of what may miss a zero vector; with density 0.
 Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
                         const PointwiseOptions& options) {
     std::vector<Point> points;
@@ -121,8 +124,8 @@ Finding nothing_visible(runtime::Evaluator& evaluator, const Function& sampler,
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const std::vector<double> row = table.row(i);
         const Direction d{results[0][i], results[1][i], results[2][i]}, n = reader.n(row.data());
-        double off = length_error(results, i);
-        const bool anywhere = reader.has_cap();
+        const bool anywhere = reader.has_cap() || may_miss(sampler);
+        double off = may_miss(sampler) ? length(d) : length_error(results, i);
         if (!anywhere && (sampler.domain == Domain::upper || sampler.result == "WI"))
             off = std::max({off, std::abs(d[0]), std::abs(d[1]), std::abs(d[2] - 1)});
         else if (!anywhere)

@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t pivot_cells = LobePicture::cells, angle_bins = LobePicture::cells;
 constexpr std::size_t ks_bins = std::size_t{1} << 16;
 constexpr std::size_t pool_below = 16;  // expectation per cell: at levels of 1e-10 more than the usual 5
+constexpr std::size_t chunk = 1024;
 constexpr std::size_t means = reference::Moments::count + 3;
 
 // Counts and sums of the samples.
@@ -110,7 +111,6 @@ std::size_t cell_of(const reference::Bins& bins, double theta, double phi) {
 template <class T>
 Tally count(const reference::Distribution& distribution, const reference::Bins& bins,
             const Quantities& quantities, std::size_t n, const T* x, const T* y, const T* z) {
-    constexpr std::size_t chunk = 1024;
     std::array<double, chunk> a, b;
     Tally tally;
     for (std::size_t begin = 0; begin < n; begin += chunk) {
@@ -136,7 +136,8 @@ std::vector<MeanTest> test_means(const Function& sampler, const Expectation& exa
     static const char* const names[] = {"x",  "y",  "z",  "xx",          "yy",          "zz",         "xy",
                                         "xz", "yz", "wo", "stretched x", "stretched y", "stretched z"};
     std::vector<MeanTest> tests;
-    for (std::size_t k = 0; k < tests_per_lobe(sampler) - 4; ++k) {
+    const std::size_t tested = sampler.result == "WM" ? means : reference::Moments::count;
+    for (std::size_t k = 0; k < tested; ++k) {
         const double deviation = std::sqrt(exact.variance[k]);
         const double rms = std::sqrt(exact.variance[k] + exact.mean[k] * exact.mean[k]);
         const double range = 1 + std::abs(exact.mean[k]);
@@ -189,8 +190,31 @@ void WorstLobes::append_to(std::vector<Finding>& findings) const {
 }
 
 std::size_t tests_per_lobe(const Function& sampler) {
-    return 4 + (sampler.result == "WM" ? means : reference::Moments::count);
+    return 4 + (sampler.result == "WM" ? means : reference::Moments::count) + (may_miss(sampler) ? 1 : 0);
 }
+
+namespace {
+
+template <class T>
+std::array<std::vector<T>, 3> without_lost(std::size_t n, const T* x, const T* y, const T* z) {
+    std::array<std::vector<T>, 3> kept;
+    for (std::size_t i = 0; i < n; ++i)
+        if (!reference::is_lost({x[i], y[i], z[i]}))
+            kept[0].push_back(x[i]), kept[1].push_back(y[i]), kept[2].push_back(z[i]);
+    return kept;
+}
+
+LobeTest test_kept(double share, std::size_t all, std::size_t kept) {
+    const auto n = static_cast<double>(all);
+    const std::uint32_t observed[2] = {static_cast<std::uint32_t>(kept),
+                                       static_cast<std::uint32_t>(all - kept)};
+    const double expected[2] = {n * share, n * std::max(0., 1 - share)};
+    const ChiSquare chi = chi_square(observed, expected, pool_below);
+    return {"chi2 of what is kept", true, chi.p,
+            fmt::format("{} of {}, expected {:.0f}", kept, all, expected[0])};
+}
+
+}  // namespace
 
 template <class T>
 std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<double>& row, std::size_t n,
@@ -201,10 +225,18 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
                                                precision(real));
     const reference::Bins bins = distribution.bins(angle_bins, angle_bins);
     const Quantities quantities(sampler, row);
+    std::vector<LobeTest> tests;
+    std::array<std::vector<T>, 3> kept;
+    if (may_miss(sampler)) {
+        kept = without_lost(n, x, y, z);
+        tests.push_back(test_kept(distribution.kept(), n, kept[0].size()));
+        n = kept[0].size() - kept[0].size() % (histogram_share * chunk);
+        if (n == 0) return tests;
+        x = kept[0].data(), y = kept[1].data(), z = kept[2].data();
+    }
     const Tally tally = count(distribution, bins, quantities, n, x, y, z);
     const auto samples = static_cast<double>(n);
 
-    std::vector<LobeTest> tests;
     const auto add_chi_square = [&](const char* name, const std::vector<std::uint32_t>& observed,
                                     const std::vector<double>& expected) {
         const ChiSquare chi = chi_square(observed, expected, pool_below);

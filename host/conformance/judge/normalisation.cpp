@@ -46,11 +46,13 @@ void drop_below(const Function& density, const reference::QuadratureRule& rule, 
 
 // The density's own direction is the last of its vectors: wm or wi.
 Nodes nodes(const Function& density, const std::vector<double>& row, Real real, bool of_user) {
-    const reference::QuadratureRule rule =
-        reference::Distribution(density.model, RowReader(density).lobe(row.data()), precision(real)).rule();
+    const reference::Distribution distribution(density.model, RowReader(density).lobe(row.data()),
+                                               precision(real));
+    const reference::QuadratureRule rule = distribution.rule();
     const int variable = std::max(column(density, "wm_x"), column(density, "wi_x"));
     Nodes result;
     result.weight = rule.weight;
+    result.expected = distribution.kept();
     for (const double value : row) result.inputs.columns.emplace_back(rule.size(), value);
     if (variable >= 0) {
         result.inputs.columns[variable] = rule.x;

@@ -32,12 +32,12 @@ Region region(const Function& sampler, const RowReader& reader, const double* ro
 
 // Errors of the plain form by region, and of its invariants (in epsilon, or counts).
 struct MapErrors {
-    Errors front, back, level, core, outside, length, below, behind, bad;
+    Errors front, back, level, core, outside, length, below, behind, bad, kept;
     void merge(const MapErrors& other) {
         front.merge(other.front), back.merge(other.back), level.merge(other.level);
         core.merge(other.core), outside.merge(other.outside);
         length.merge(other.length), below.merge(other.below), behind.merge(other.behind),
-            bad.merge(other.bad);
+            bad.merge(other.bad), kept.merge(other.kept);
     }
 };
 
@@ -52,12 +52,27 @@ void add_invariants(const Function& sampler, const RowReader& reader, const doub
     const bool finite = std::isfinite(d[0]) && std::isfinite(d[1]) && std::isfinite(d[2]);
     errors.bad.add(finite ? 0 : 1, i);
     if (!finite) return;
+    if (may_miss(sampler) && reference::is_lost(d)) return;
     errors.length.add(std::abs(length(d) - 1) / unit, i);
     if (!std::isfinite(condition) || sampler.result != "WM") return;
     const double depth = std::max(0.0, -dot(d, reader.n(row))) / unit;
     errors.below.add(reader.has_n() ? depth / (1 + condition) : depth, i);
     if (reader.has_wo() && is_settled(condition))
         errors.behind.add(std::max(0.0, -dot(d, reader.wo(row)) / length(reader.wo(row))) / unit, i);
+}
+
+// Whether a sample is lost where the exact one is, by more than 64 units of its error, and only there.
+template <class R>
+bool is_kept_alike(const Function& sampler, std::vector<double> row, const double* result, const R* exact,
+                   double error) {
+    const std::array<double, 3> d{static_cast<double>(exact[0]), static_cast<double>(exact[1]),
+                                  static_cast<double>(exact[2])};
+    const bool lost = reference::is_lost({result[0], result[1], result[2]});
+    if (lost == reference::is_lost(d)) return true;
+    const Direction ng = RowReader(sampler).ng(row.data());
+    const double* kept = lost ? d.data() : result;
+    const double over = dot({kept[0], kept[1], kept[2]}, ng) / length(ng);
+    return std::min(std::abs(over), std::abs(kept[2])) < 64 * error;
 }
 
 template <class R>
@@ -87,6 +102,9 @@ MapErrors map_errors(const Function& sampler, const Table& table, const Columns&
                 errors.outside.add(std::equal(wide, wide + 3, exact) ? 0 : 1, i);
                 continue;
             }
+            if (may_miss(sampler))
+                errors.kept.add(is_kept_alike(sampler, row, result, exact, unit * (1 + condition)) ? 0 : 1,
+                                i);
             const auto error = static_cast<double>(angle(wide, exact) / (unit * (1 + condition)));
             (where == Region::front ? errors.front : errors.back).add(error, i);
             // Its rows are too few among those in front to count there, and maps are guarded at just this cosine.
@@ -175,6 +193,8 @@ std::vector<Finding> check_sampler(runtime::Evaluator& evaluator, const Function
         add("documented direction outside the domain", errors.outside.max(), 0, "rows", errors.outside);
     add("finite", errors.bad.max(), 0, "non-finite", errors.bad);
     add("unit length", errors.length.max(), length_bound(sampler.result) * loose, "eps", errors.length);
+    if (errors.kept.count())
+        add("lost where the exact sample is", errors.kept.percentile(99.9), 0, "rows", errors.kept);
     if (errors.below.count())
         add("normal above the surface", errors.below.max(), world ? side_bound() * loose : 0,
             world ? unit : "eps", errors.below);

@@ -79,6 +79,10 @@ void add_row(const Inputs& s, const RowReader& reader, std::size_t i, PdfErrors&
         std::max(x, y) <= 2)
         errors.lost.add(s.separate[0][i] > 0 ? 0 : 1, i);
 
+    // Lost, or by either of two cones.
+    if (may_miss(s.sampler) &&
+        (!(pdf > 0) || !std::isfinite(reference::condition(s.sampler.name, row.data(), precision(s.real)))))
+        return;
     R exact[4];
     const std::vector<R> in(row.begin(), row.end());
     reference::find_evaluation<R>(s.sampler.name)(in.data(), exact, precision(s.real));

@@ -149,7 +149,7 @@ std::vector<Point> exhaustive_lobes(const Function& sampler) {
                 // Exactly n or -n in float, too.
                 if (std::abs(wo[2]) == 1 && wo[0] == 0)
                     for (int k = 0; k < 3; ++k) point.wo[k] = wo[2] * axes[n][k];
-                place_cap(point, true);
+                place_cap(point, true), place_tilt(point, false);
                 if (column(sampler, "l_x") >= 0 && !has_room(point)) continue;
                 if (seen.insert(tabulate(sampler, {point}, runtime::Real::f32).row(0)).second)
                     points.push_back(point);
