@@ -119,12 +119,13 @@ best() { sort -g "$1" | tail -1; }
 speed() {
     export POCL_MAX_PTHREAD_COUNT=1
     walk="$clvndf --quiet check --exhaustive --only *_wm_dupuy2023 --slice"
-    one_rank() { taskset -c 0 $walk 1/200 --checkpoint one; }
+    # In sessions of their own, as ranks are, since Linux shares processors by sessions.
+    one_rank() { setsid -w taskset -c $((i % 2)) $walk 1/200 --checkpoint one; }
     two_ranks() { mpirun -n 2 --map-by core --bind-to core $walk 1/200 --checkpoint two; }
     # Two processes that know nothing of each other, a half each: what the machine has to give just now.
     apart() {
-        POCL_CACHE_DIR="$PWD/cache/rank-1" taskset -c 1 $walk 201/400 --checkpoint second &
-        taskset -c 0 $walk 1/400 --checkpoint first
+        POCL_CACHE_DIR="$PWD/cache/rank-1" setsid -w taskset -c 1 $walk 201/400 --checkpoint second &
+        setsid -w taskset -c 0 $walk 1/400 --checkpoint first
         wait
     }
     rm -f rates.*
