@@ -98,12 +98,13 @@ for b in json.load(open(sys.argv[1]))["benchmarks"]:
     figures alone.json >a.figures && figures together.json >b.figures
     same "bench, $(wc -l <a.figures) times of $(grep -c best a.figures) entries" a.figures b.figures
 
-    # The cable is cut in the middle: we notice, and mpirun, which then ends what it can reach.
+    # The cable is cut in the middle: we notice, or mpirun does, which then ends what it can reach.
     (sleep 4; ip -n $one link set eth0 down) &
     on_hosts -x CLVNDF_RANK_TIMEOUT=3 "$clvndf" --quiet check --exhaustive --checkpoint at >out 2>err
     ended=$?
-    if [ $ended != 0 ] && grep -q 'clvndf: rank 1 on host2 has been silent' err && [ ! -s out ]; then
-        echo "a cut cable: status $ended, $(grep clvndf: err)"
+    if [ $ended != 0 ] && grep -q 'clvndf: rank 1 on host2 has been silent\|lost communication with a remote daemon' err &&
+        [ ! -s out ]; then
+        echo "a cut cable: status $ended, $(grep -m1 'clvndf:\|lost comm' err)"
     else
         echo "a cut cable: status $ended, NOT told: $(cat err)"
         status=1
