@@ -93,7 +93,7 @@ while i < len(d):
     bench="bench --quick --only vndf_ggx_g*/strict/float --repetitions 3 --json"
     figures() { python3 -c 'import json, sys
 for b in json.load(open(sys.argv[1]))["benchmarks"]:
-    if "_again" not in b["name"]: print(b["name"], b.get("err_p50"), b.get("err_p99"), b["samples"])' "$1" | sort; }
+    if "_again" not in b["name"]: print(b["name"], b.get("err_p50"), b.get("err_p99"))' "$1" | sort; }
     "$clvndf" --quiet $bench alone.json >out && on_hosts "$clvndf" --quiet $bench together.json >out
     figures alone.json >a.figures && figures together.json >b.figures
     same "bench, $(wc -l <a.figures) times of $(grep -c best a.figures) entries" a.figures b.figures
