@@ -93,17 +93,18 @@ while i < len(d):
     bench="bench --quick --only vndf_ggx_g*/strict/float --repetitions 3 --json"
     figures() { python3 -c 'import json, sys
 for b in json.load(open(sys.argv[1]))["benchmarks"]:
-    if "_again" not in b["name"]: print(b["name"], b.get("err_p50"), b.get("err_p99"), b["samples"])' "$1" | sort; }
+    if "_again" not in b["name"]: print(b["name"], b.get("err_p50"), b.get("err_p99"))' "$1" | sort; }
     "$clvndf" --quiet $bench alone.json >out && on_hosts "$clvndf" --quiet $bench together.json >out
     figures alone.json >a.figures && figures together.json >b.figures
     same "bench, $(wc -l <a.figures) times of $(grep -c best a.figures) entries" a.figures b.figures
 
-    # The cable is cut in the middle: we notice, and mpirun, which then ends what it can reach.
+    # The cable is cut in the middle: we notice, or mpirun does, which then ends what it can reach.
     (sleep 4; ip -n $one link set eth0 down) &
     on_hosts -x CLVNDF_RANK_TIMEOUT=3 "$clvndf" --quiet check --exhaustive --checkpoint at >out 2>err
     ended=$?
-    if [ $ended != 0 ] && grep -q 'clvndf: rank 1 on host2 has been silent' err && [ ! -s out ]; then
-        echo "a cut cable: status $ended, $(grep clvndf: err)"
+    if [ $ended != 0 ] && grep -q 'clvndf: rank 1 on host2 has been silent\|lost communication with a remote daemon' err &&
+        [ ! -s out ]; then
+        echo "a cut cable: status $ended, $(grep -m1 'clvndf:\|lost comm' err)"
     else
         echo "a cut cable: status $ended, NOT told: $(cat err)"
         status=1
@@ -119,12 +120,13 @@ best() { sort -g "$1" | tail -1; }
 speed() {
     export POCL_MAX_PTHREAD_COUNT=1
     walk="$clvndf --quiet check --exhaustive --only *_wm_dupuy2023 --slice"
-    one_rank() { taskset -c 0 $walk 1/200 --checkpoint one; }
+    # In sessions of their own, as ranks are, since Linux shares processors by sessions.
+    one_rank() { setsid -w taskset -c $((i % 2)) $walk 1/200 --checkpoint one; }
     two_ranks() { mpirun -n 2 --map-by core --bind-to core $walk 1/200 --checkpoint two; }
     # Two processes that know nothing of each other, a half each: what the machine has to give just now.
     apart() {
-        POCL_CACHE_DIR="$PWD/cache/rank-1" taskset -c 1 $walk 201/400 --checkpoint second &
-        taskset -c 0 $walk 1/400 --checkpoint first
+        POCL_CACHE_DIR="$PWD/cache/rank-1" setsid -w taskset -c 1 $walk 201/400 --checkpoint second &
+        setsid -w taskset -c 0 $walk 1/400 --checkpoint first
         wait
     }
     rm -f rates.*
