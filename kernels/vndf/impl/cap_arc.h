@@ -34,8 +34,8 @@ VNDF_FN VNDF_REAL vndf_impl_arc_rest(VNDF_REAL cosine, VNDF_REAL sine) {
     turn = turn > VNDF_R(0.5) ? turn - VNDF_R(1.0) : turn;
     VNDF_REAL rest =
         VNDF_FMA(VNDF_R(2.0) * VNDF_PI, turn, -VNDF_DIVIDE(sine, size > VNDF_R(0.0) ? size : VNDF_R(1.0)));
-    int small = cosine > VNDF_R(0.0) && z < VNDF_R(0.25);
-    return small ? VNDF_R(2.0) * t * z * vndf_impl_segment(vndf_impl_min(z, VNDF_R(0.25))) : rest;
+    int little = cosine > VNDF_R(0.0) && z < VNDF_R(0.25);
+    return little ? VNDF_R(2.0) * t * z * vndf_impl_segment(vndf_impl_min(z, VNDF_R(0.25))) : rest;
 }
 
 // In float an alpha counts as at least 1e-6 and 2^-17 of the other, below which nothing is left of the digits of a cone; areas
@@ -157,7 +157,7 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
     // great circle's arc, and its middle is as near.
     VNDF_REAL reach = vndf_impl_abs(wx) + vndf_impl_abs(wy) + vndf_impl_abs(wz);
     VNDF_REAL hx = vndf_impl_abs(wo.x + ax), hy = vndf_impl_abs(wo.y + ay), hz = vndf_impl_abs(wo.z + az);
-    VNDF_REAL move =
+    VNDF_REAL slip =
         VNDF_FMA(vndf_impl_abs(c.ex) * alpha_x, hy + hz,
                  VNDF_FMA(vndf_impl_abs(c.ey) * alpha_y, hx + hz, vndf_impl_abs(c.ez) * (hx + hy)));
     VNDF_REAL sx = ax + bx, sy = ay + by, sz = az + bz, s2 = VNDF_FMA(sx, sx, VNDF_FMA(sy, sy, sz * sz)),
@@ -168,7 +168,7 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
               m2 = VNDF_FMA(e2x, m.x, VNDF_FMA(e2y, m.y, e2z * m.z)) * rcp_q;
     VNDF_REAL to_m = VNDF_FMA(a1, m1, a2 * m2), from_m = VNDF_FMA(b2, m2, b1 * m1);
     int near_m = to_m > VNDF_R(0.9) && from_m > VNDF_R(0.9) && s2 > VNDF_R(1.0) &&
-                 one_minus_cos == VNDF_R(1.0) && w0 > VNDF_R(-8.0) * VNDF_EPSILON * (move * rcp);
+                 one_minus_cos == VNDF_R(1.0) && w0 > VNDF_R(-8.0) * VNDF_EPSILON * (slip * rcp);
     VNDF_REAL around = vndf_impl_arc_rest(VNDF_FMA(a1, b1, a2 * b2), w0 * (rcp_p * rcp_q));
     around += w0 < VNDF_R(-8.0) * VNDF_EPSILON * reach && !near_m ? VNDF_R(2.0) * VNDF_PI : VNDF_R(0.0);
     VNDF_REAL area = p * q * around * VNDF_R(0.5);
@@ -178,9 +178,9 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
     VNDF_REAL cosine = VNDF_FMA(k2, a2 * b2, heights), over = -w1 * rcp_q, sine = root_k * over;
     VNDF_REAL size = VNDF_SQRT(VNDF_FMA(cosine, cosine, sine * sine)), sum = size + vndf_impl_abs(cosine);
     VNDF_REAL t = VNDF_DIVIDE(over, sum > VNDF_R(0.0) ? sum : VNDF_R(1.0)), t2 = t * t, z = k2 * t2;
-    VNDF_REAL small = k2 * (t * t2) * vndf_impl_segment(vndf_impl_min(z, VNDF_R(0.25)));
+    VNDF_REAL little = k2 * (t * t2) * vndf_impl_segment(vndf_impl_min(z, VNDF_R(0.25)));
     VNDF_REAL large = VNDF_R(0.5) * less_k * vndf_impl_arc_rest(cosine, sine);
-    VNDF_REAL first = q * co_p2 * (cosine > VNDF_R(0.0) && z < VNDF_R(0.25) ? small : large);
+    VNDF_REAL first = q * co_p2 * (cosine > VNDF_R(0.0) && z < VNDF_R(0.25) ? little : large);
 
     // Along e2, hyperbolic.
     VNDF_REAL cc = k2 * (a1 * b1);
@@ -192,9 +192,9 @@ VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL
     VNDF_REAL sinh_q = root_k * (w2 * rcp_p);
     VNDF_REAL log_q = vndf_impl_log(vndf_impl_max(
         VNDF_DIVIDE(cosh_q + vndf_impl_abs(sinh_q), vndf_impl_max(co_q2, VNDF_IMPL_LEAST)), VNDF_R(1.0)));
-    VNDF_REAL far = VNDF_R(0.5) * VNDF_FMA(p * co_q2 * less_k, sinh_q < VNDF_R(0.0) ? -log_q : log_q, -w2);
-    VNDF_REAL near = -p * co_q2 * k2 * (h * h2) * vndf_impl_segment(-vndf_impl_min(y, VNDF_R(0.25)));
-    VNDF_REAL second = y < VNDF_R(0.25) ? near : far;
+    VNDF_REAL outer = VNDF_R(0.5) * VNDF_FMA(p * co_q2 * less_k, sinh_q < VNDF_R(0.0) ? -log_q : log_q, -w2);
+    VNDF_REAL inner = -p * co_q2 * k2 * (h * h2) * vndf_impl_segment(-vndf_impl_min(y, VNDF_R(0.25)));
+    VNDF_REAL second = y < VNDF_R(0.25) ? inner : outer;
 
     VNDF_REAL v0 = VNDF_FMA(c.x, c.ex, VNDF_FMA(c.y, c.ey, c.z * c.ez));
     VNDF_REAL v1 = VNDF_FMA(c.x, e1x, VNDF_FMA(c.y, e1y, c.z * e1z));
