@@ -36,7 +36,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_part(VNDF_REAL one_minus_cos) {
 // sigma_C of the cone; for a cap of no size it shrinks with 1 - cos beta.
 VNDF_FN VNDF_REAL vndf_impl_cap_sigma(struct vndf_impl_cap c, struct vndf_impl_cap_cone k,
                                       VNDF_REAL one_minus_cos) {
-    VNDF_REAL sigma = VNDF_DIVIDE(k.mu, VNDF_SQRT(k.sum) * (k.length > VNDF_R(0.0) ? k.length : VNDF_R(1.0)));
+    VNDF_REAL sigma = VNDF_DIVIDE(k.mu, VNDF_SQRT(k.sum)) * k.along;
     return c.defined && k.length > VNDF_R(0.0) ? sigma * vndf_impl_cap_part(one_minus_cos) : VNDF_R(0.0);
 }
 
@@ -135,7 +135,6 @@ VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l
     l.s0 = VNDF_R(1.0);
     l.s2 = l.along_2 * l.spread;
     VNDF_REAL root_1 = VNDF_SQRT(rcp_g1), root_2 = VNDF_SQRT(root_1 > VNDF_R(0.0) ? rcp_g2 : VNDF_R(1.0));
-    l.twice_sigma = VNDF_R(2.0) * k.along * root_1 * root_2;  // p q v . e0
     // The sign of e1 is that of q . e1 >= 0.
     int turned = VNDF_FMA(ca, qa, cb * qb) < VNDF_R(0.0);
     l.step_1 = turned ? -root_1 : root_1;
@@ -192,7 +191,7 @@ VNDF_FN struct vndf_ggx_cone2026 vndf_ggx_cone2026_of(struct vndf_ggx_lobe lobe,
     c.map.f = k.ey;
     c.map.g = k.ez;
     c.length = k.length;
-    c.map.twice_sigma *= c.defined ? vndf_impl_cap_part(one_minus_cos) : VNDF_R(0.0);
+    c.map.twice_sigma = VNDF_R(2.0) * vndf_impl_cap_sigma(cap, k, one_minus_cos);
     return c;
 }
 
