@@ -79,6 +79,9 @@ def short(function):
 
 
 def svg(figure):
+    for axis in figure.axes:  # matplotlib has no logarithmic scale for nothing
+        if not axis.has_data():
+            axis.set(xscale="linear", yscale="linear")
     text = io.StringIO()
     figure.savefig(text, format="svg", metadata={"Date": None})
     plt.close(figure)

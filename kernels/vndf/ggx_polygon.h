@@ -2,13 +2,13 @@
 //
 // Source: this package; derivation and how to verify it: ggx_cone2026.md. None found published, in a short search.
 //     The integral of D / 4 over a region of directions wi is what v = A wo sees of the region's stretched normals, whose boundary
-//     is made of arcs (impl/cap_arc.h): one for each edge, of its great circle, and one of the horizon. Times F G2 / cos theta_o
+//     is made of arcs (ggx_cone2026_arc.h): one for each edge, of its great circle, and one of the horizon. Times F G2 / cos theta_o
 //     it is the light that a polygon of constant radiance sends to wo, with F and G2 taken out of the integral; over sigma the
 //     probability of the polygon.
 #ifndef VNDF_GGX_POLYGON_H
 #define VNDF_GGX_POLYGON_H
 
-#include "impl/cap_arc.h"
+#include "ggx_cone2026_arc.h"
 
 VNDF_BEGIN
 

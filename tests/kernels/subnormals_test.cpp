@@ -26,8 +26,8 @@ namespace {
 template <class T>
 bool meets_subnormal(runtime::HostFunction function, const std::vector<double>& row) {
     constexpr unsigned denormal_operand = 2, underflow = 16;
-    T in[16], out[4];
-    const void* inputs[16];
+    T in[32], out[4];
+    const void* inputs[32];
     void* outputs[4];
     for (std::size_t i = 0; i < row.size(); ++i) in[i] = static_cast<T>(row[i]), inputs[i] = &in[i];
     for (std::size_t i = 0; i < 4; ++i) outputs[i] = &out[i];
@@ -100,9 +100,12 @@ void check_functions(runtime::HostFunction (*find)(const char*)) {
             if (meets_subnormal<T>(find(function.name.c_str()), row) && bad++ == 0)
                 UNSCOPED_INFO(function.name << " at " << conformance::hex_row(function, row));
         }
-        // Where a lobe is a thousand times as narrow one way as the other, some terms of the cone are next to nothing.
-        const bool cone = function.name.find("conic2026") != std::string::npos;
-        CHECK(bad <= (cone ? 4 : 0));
+        // Where a lobe is a thousand times as narrow one way as the other, some terms of the cone are next to nothing. Of two
+        // corners of a polygon that are one, and of edges that the horizon leaves nothing of, the arc is nothing.
+        const auto is = [&](const char* part) { return function.name.find(part) != std::string::npos; };
+        const bool polygon = is("triangle_mass") || is("quad_mass"),
+                   cone = is("conic2026") || is("tilted2026");
+        CHECK(bad <= (polygon ? 400 : cone ? 4 : 0));
     }
 }
 

@@ -131,8 +131,8 @@ void place_tilt(Point& point, bool contained) {
     Draws random(point, contained ? 3 : 2);
     const Direction& o = point.wo;
     const auto kind = random.bits() % 16;
-    const double by =
-        std::ldexp(1 + random.uniform(), -static_cast<int>(random.bits() % (contained ? 4 : 20)));
+    const int down = static_cast<int>(random.bits() % (contained ? 4 : 20));
+    const double by = std::ldexp(1 + random.uniform(), -down);
     const Direction off = random.anywhere();
     switch (kind) {
         case 0:
@@ -169,7 +169,8 @@ void place_tilt(Point& point, bool contained) {
 void place_polygon(Point& point) {
     Draws random(point, 4);
     const Direction& o = point.wo;
-    const double size = std::ldexp(1 + random.uniform(), -static_cast<int>(random.bits() % 16));
+    const int down = static_cast<int>(random.bits() % 16);
+    const double size = std::ldexp(1 + random.uniform(), -down);
     Direction centre = random.about(point.wi, size);
     switch (random.bits() % 8) {
         case 0:

@@ -101,8 +101,9 @@ FastMathFigures fast_math_figures(runtime::Evaluator& fast, const FastMathRows& 
     for (std::size_t i = 0; i < rows.inside.rows(); ++i) {
         if (!finite(inside, i)) continue;
         if (directions != 0) figures.direction.add(distance(inside, rows.strict_inside, i), i);
-        if (function.kind == Kind::sampler)
-            figures.unit = std::max(figures.unit, std::abs(length_of(inside, i) - 1) / epsilon(Real::f32));
+        const double length = function.kind == Kind::sampler ? length_of(inside, i) : 1;
+        if (length > 0 || !may_miss(function))
+            figures.unit = std::max(figures.unit, std::abs(length - 1) / epsilon(Real::f32));
         for (std::size_t c = directions; c < inside.size(); ++c)
             figures.value.add(relative_error(inside[c][i], rows.strict_inside[c][i]), i);
     }

@@ -1,4 +1,4 @@
-// Seeded mistakes in ggx_tilted2026.h, ggx_polygon.h and impl/cap_arc.h: rows of Mutant (mutants.h).
+// Seeded mistakes in ggx_tilted2026.h, ggx_polygon.h and ggx_cone2026_arc.h: rows of Mutant (mutants.h).
 {"tilted: the shading normal in the place of the geometric one",
  "ggx_tilted2026.h",
  "lobe.wo_z, after, VNDF_R(1.0));",
@@ -23,12 +23,12 @@
     {"tilted: an arc the other way round", "ggx_tilted2026.h",      "VNDF_1_PI * (of_z + of_ng)",
      "VNDF_1_PI * (of_z - of_ng)",         "vndf_ggx_sigma_tilted", {"pointwise, p99"}},
     {"arcs: the long way round not taken",
-     "impl/cap_arc.h",
+     "ggx_cone2026_arc.h",
      "!near_m ? VNDF_R(2.0) * VNDF_PI",
      "!near_m ? VNDF_R(0.0)",
      "vndf_ggx_sigma_tilted",
      {"pointwise, p99"}},
-    {"arcs: no hyperbolic part",          "impl/cap_arc.h",         "y < VNDF_R(0.25) ? inner : outer;",
+    {"arcs: no hyperbolic part",          "ggx_cone2026_arc.h",     "y < VNDF_R(0.25) ? inner : outer;",
      "y < VNDF_R(0.25) ? inner : inner;", "vndf_ggx_triangle_mass", {"pointwise, p99"}},
     {"polygons: the horizon not closed",
      "ggx_polygon.h",
@@ -36,5 +36,5 @@
      "o.seen + (crosses ? VNDF_R(0.0) : VNDF_R(0.0))",
      "vndf_ggx_quad_mass",
      {"pointwise, p99"}},
-    {"caps: the complement for the cap", "impl/cap_arc.h",    "mass = turned ? all - mass : mass;",
-     "mass = turned ? mass : mass;",     "vndf_ggx_cap_mass", {"pointwise, p99"}},
+    {"caps: the complement for the cap", "ggx_cone2026_arc.h", "mass = turned ? all - mass : mass;",
+     "mass = turned ? mass : mass;",     "vndf_ggx_cap_mass",  {"pointwise, p99"}},

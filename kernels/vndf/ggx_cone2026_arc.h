@@ -2,16 +2,16 @@
 //
 // Source: this package; derivation and how to verify it: ggx_cone2026.md, 3. None found published, in a short search.
 //     A region whose boundary runs through the unit normals m has the vector area V = 1/2 sum of the integrals of m x dm, and
-//     v = A wo sees v . V / pi of it. Along a great circle of reflections m runs on the rim of a cone (cap_cone.h),
+//     v = A wo sees v . V / pi of it. Along a great circle of reflections m runs on the rim of a cone (impl/cap_cone.h),
 //     m = (M, p cos phi, q sin phi) in its axes, and an arc from m_a to m_b has 1/2 m_a x m_b, which is the triangle to the
 //     origin, and the segment between arc and chord,
 //         1/2 (p q (d - sin d), -q P^2 / k (e - sin e), p Q^2 / k (f - sinh f)),
 //     d, e, f the differences of phi, asin(k sin(phi) / P) and asinh(k cos(phi) / Q), P^2 = 1 - p^2, Q^2 = 1 - q^2, k^2 = P^2 -
 //     Q^2. All of their sines are parts of the one vector m_a x m_b, so that what is small is not a difference of large numbers.
-#ifndef VNDF_IMPL_CAP_ARC_H
-#define VNDF_IMPL_CAP_ARC_H
+#ifndef VNDF_GGX_CONE2026_ARC_H
+#define VNDF_GGX_CONE2026_ARC_H
 
-#include "../ggx_cone2026.h"
+#include "ggx_cone2026.h"
 
 VNDF_BEGIN
 
