@@ -15,7 +15,8 @@ import json
 import pathlib
 import subprocess
 import sys
-import tempfile
+
+from divide import best_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SAMPLES = 1 << 15
@@ -97,13 +98,8 @@ def mean_of_even(clvndf, row):
 
 
 def times(clvndf):
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "bench.json"
-        subprocess.run([clvndf, "--quiet", "bench", "--only", "*ggx_sample_wi_con*2026_with_pdf/float", "--json", path], check=True,
-                       stdout=subprocess.DEVNULL)
-        run = json.loads(path.read_text("utf-8"))
-    best = {entry["run_name"]: entry["ns_per_sample"] for entry in run["benchmarks"] if entry.get("aggregate_name") == "best"}
-    return run["context"], {way: best[f"{entry}/float/compute"] for way, entry in TIMED.items()}
+    device, best = best_of(clvndf, "*ggx_sample_wi_con*2026_with_pdf/float")
+    return device, {way: best[f"{entry}/float/compute"] for way, entry in TIMED.items()}
 
 
 def main():
@@ -117,9 +113,8 @@ def main():
         mean, error = mean_of_even(clvndf, row)
         if abs(mean - row["mean"]) > 5 * (error + row["error"]):
             sys.exit(f"caps.py: {row}: by even samples the mean is {mean:.4g} +- {error:.2g}")
-    context, ns = times(clvndf)
+    device, ns = times(clvndf)
     short = json.loads(json.dumps(rows, default=float), parse_float=lambda number: float(f"{float(number):.3g}"))
-    device = {name: context.get(name) for name in ("device", "driver_version", "date", "clvndf_version")}
     arguments.output.write_text(json.dumps({"samples": SAMPLES, "context": device, "ns": ns, "rows": short}, indent=1) + "\n", "utf-8")
 
 

@@ -16,23 +16,27 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 FORMS = ("strict", "strict_divide")
 
 
+def best_of(clvndf, only):
+    """The device of a run of `clvndf bench`, and the best nanoseconds a sample of each entry."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "bench.json"
+        subprocess.run([clvndf, "--quiet", "bench", "--only", only, "--json", path], check=True, stdout=subprocess.DEVNULL)
+        run = json.loads(path.read_text("utf-8"))
+    device = {name: run["context"].get(name) for name in ("device", "driver_version", "date", "clvndf_version")}
+    return device, {entry["run_name"]: entry["ns_per_sample"] for entry in run["benchmarks"] if entry.get("aggregate_name") == "best"}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("output", type=pathlib.Path)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="where clvndf is")
     arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "bench.json"
-        subprocess.run([arguments.build / "clvndf", "--quiet", "bench", "--only", "_sample_w/strict", "--json", path],
-                       check=True, stdout=subprocess.DEVNULL)
-        run = json.loads(path.read_text("utf-8"))
-    best = {entry["run_name"]: entry["ns_per_sample"] for entry in run["benchmarks"] if entry.get("aggregate_name") == "best"}
+    device, best = best_of(arguments.build / "clvndf", "_sample_w/strict")
     ns = {}
     for name in best:
         function, *form = name.split("/")
         if form == ["strict_divide", "float", "cached"]:
             ns[function] = [round(best[f"{function}/{form}/float/cached"], 3) for form in FORMS]
-    device = {name: run["context"].get(name) for name in ("device", "driver_version", "date", "clvndf_version")}
     arguments.output.write_text(json.dumps({"context": device, "ns": ns}, indent=1) + "\n", "utf-8")
 
 

@@ -166,11 +166,20 @@ bool is_wanted(const Bench& options, const Function& function, const bench::Rung
     return !options.quick || (bench::is_quick(rung) && (sampler || !options.only.empty()));
 }
 
+// "builtin/{double,float}, cpp/float".
+std::string in_words(const std::map<std::string, std::set<std::string_view>>& types_by_form) {
+    std::vector<std::string> words;
+    for (const auto& [form, types] : types_by_form)
+        words.push_back(types.size() == 1 ? fmt::format("{}/{}", form, *types.begin())
+                                          : fmt::format("{}/{{{}}}", form, fmt::join(types, ",")));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 // What is to be measured. What others are compared with is always there.
 std::vector<Form> selected_forms(const runtime::Device& device, const Selection& selection,
                                  const Bench& options) {
     std::vector<Form> selected;
-    std::set<std::string> all;
+    std::map<std::string, std::set<std::string_view>> all;  // types by form
     for (const Function* function : selection.functions) {
         std::vector<Form> forms;
         for (bench::Rung rung : bench::rungs(*function, device)) {
@@ -181,7 +190,7 @@ std::vector<Form> selected_forms(const runtime::Device& device, const Selection&
         const auto asked_for = [&](const Form& form) {
             return form.rung.key().find(selection.forms) != std::string::npos;
         };
-        for (const Form& form : forms) all.insert(form.rung.key());
+        for (const Form& form : forms) all[form.rung.name].insert(to_string(form.rung.real));
         if (std::none_of(forms.begin(), forms.end(), asked_for)) continue;
         for (const Form& form : forms)
             if (asked_for(form) || form.rung.name == "published" || form.rung.name == "lean")
@@ -190,7 +199,7 @@ std::vector<Form> selected_forms(const runtime::Device& device, const Selection&
     if (selected.empty())
         throw InputError(all.empty() ? fmt::format("--only '{}': nothing that is measured here", options.only)
                                      : fmt::format("--only '{}': '{}' is part of none of {}", options.only,
-                                                   selection.forms, fmt::join(all, ", ")));
+                                                   selection.forms, in_words(all)));
     return selected;
 }
 

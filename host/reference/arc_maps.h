@@ -9,13 +9,9 @@
 #include <vector>
 
 #include "reference/tilted_maps.h"
+#include "reference/world.h"
 
 namespace vndf::reference {
-
-template <class R>
-Vec3<R> crossed(const Vec3<R>& a, const Vec3<R>& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 // An arc of reflections from a to b through `middle`, on the rim of a cap; counter-clockwise about its axis.
 template <class R>
@@ -134,7 +130,7 @@ R ggx_polygon_mass(const Vec3<R>& wo, const std::vector<Vec3<R>>& vertices, cons
     R sum(0);
     for (std::size_t i = 0; i < above.size(); ++i) {
         const Vec3<R>&a = above[i], &b = above[(i + 1) % above.size()];
-        const Vec3<R> k = crossed(a, Vec3<R>{b.x - a.x, b.y - a.y, b.z - a.z});
+        const Vec3<R> k = cross(a, Vec3<R>{b.x - a.x, b.y - a.y, b.z - a.z});
         if (!(dot(k, k) > 0)) continue;
         const Vec3<R> middle = normalised<R>({a.x + b.x, a.y + b.y, a.z + b.z});
         sum += arc_area(wo, alpha_x, alpha_y, Arc<R>{a, middle, b, {normalised(k), R(1), R(1)}});

@@ -173,10 +173,7 @@ VNDF_FN struct vndf_render_lit vndf_render_to_lamp(struct vndf_render_looks look
 VNDF_FN struct vndf_render_lit vndf_render_to_point(VNDF_RENDER_FROM(float) points, uint count,
                                                     struct vndf_render_vector from,
                                                     struct vndf_render_quad pick) {
-    const uint first = vndf_render_row_by(pick.a, count);
-    const uint row = pick.b < points[VNDF_POINT_KEEP * count + first]
-                         ? first
-                         : (uint)(int)points[VNDF_POINT_OTHER * count + first];
+    const uint row = vndf_render_row_picked(points, VNDF_POINT_KEEP, VNDF_POINT_OTHER, count, pick);
     const struct vndf_render_vector axis = vndf_render_vector_at(points, VNDF_POINT_AXIS, count, row);
     const struct vndf_render_vector way =
         vndf_render_sum(vndf_render_vector_at(points, VNDF_POINT_PLACE, count, row), -1.0f, from);

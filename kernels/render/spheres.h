@@ -20,6 +20,13 @@ VNDF_FN uint vndf_render_row_by(float a, uint count) {
     return row < count ? row : (count > 0 ? count - 1 : 0);
 }
 
+// The row that an alias table picks, whose chances to keep a row and other rows are in these planes.
+VNDF_FN uint vndf_render_row_picked(VNDF_RENDER_FROM(float) rows, int keep, int other, uint count,
+                                    struct vndf_render_quad pick) {
+    const uint first = vndf_render_row_by(pick.a, count);
+    return pick.b < rows[keep * count + first] ? first : (uint)(int)rows[other * count + first];
+}
+
 // The part of a spot's light in a direction of this cosine with its axis.
 // Source: KHR_lights_punctual.
 VNDF_FN float vndf_render_spot_part(float slope, float cosine, float offset) {
@@ -65,10 +72,7 @@ VNDF_FN struct vndf_render_ball vndf_render_ball_of(VNDF_RENDER_FROM(float) sphe
 VNDF_FN struct vndf_render_ball vndf_render_ball_picked(VNDF_RENDER_FROM(float) spheres, uint count,
                                                         struct vndf_render_vector from,
                                                         struct vndf_render_quad pick) {
-    const uint first = vndf_render_row_by(pick.a, count);
-    const uint row = pick.b < spheres[VNDF_SPHERE_KEEP * count + first]
-                         ? first
-                         : (uint)(int)spheres[VNDF_SPHERE_OTHER * count + first];
+    const uint row = vndf_render_row_picked(spheres, VNDF_SPHERE_KEEP, VNDF_SPHERE_OTHER, count, pick);
     return vndf_render_ball_of(spheres, count, row, from);
 }
 

@@ -54,7 +54,7 @@ void require_refusal(const Outcome& run, const std::string& said) {
     CHECK(run.err.starts_with("clvndf: "));
     CHECK_THAT(run.err, ContainsSubstring(said));
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
-    CHECK(run.err.size() < 450);
+    CHECK(run.err.size() < 400);
 }
 
 }  // namespace

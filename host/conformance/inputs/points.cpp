@@ -63,6 +63,10 @@ Direction direction(double cos_theta, double phi) {
     return {sin_theta * x, sin_theta * y, cos_theta};
 }
 
+Direction cross(const Direction& a, const Direction& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 namespace {
 
 // Directions of a point's own, the same from every compiler.
@@ -145,8 +149,7 @@ void place_tilt(Point& point, bool contained) {
             point.ng = normalised({off[0], off[1], 0});
             break;
         case 3:
-            point.ng = normalised({o[1] * off[2] - o[2] * off[1], o[2] * off[0] - o[0] * off[2],
-                                   o[0] * off[1] - o[1] * off[0]});
+            point.ng = normalised(cross(o, off));
             break;
         case 4:
             point.ng = random.about({-o[0], -o[1], -o[2]}, by);
@@ -161,8 +164,7 @@ void place_tilt(Point& point, bool contained) {
     }
     if (!contained) return;
     // wo above it, and room above both.
-    const double length = std::sqrt(dot(o, o)),
-                 along = (o[0] * point.ng[0] + o[1] * point.ng[1] + o[2] * point.ng[2]) / length;
+    const double length = std::sqrt(dot(o, o)), along = dot(o, point.ng) / length;
     if (!(along > 0.02) || !(point.ng[2] > -0.9)) point.ng = o[2] > 0 ? Direction{0, 0, 1} : o;
 }
 
@@ -188,9 +190,6 @@ void place_polygon(Point& point) {
     }
     // Two vectors across it.
     const Direction off = random.anywhere();
-    const auto cross = [](const Direction& a, const Direction& b) {
-        return Direction{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    };
     const Direction u = normalised(cross(centre, off)), v = cross(centre, u);
     const double flat = random.bits() % 16 == 0 ? 0 : 1, turned = random.bits() % 2 ? 1 : -1;
     // Points of a circle are in convex position.

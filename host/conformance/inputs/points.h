@@ -51,6 +51,8 @@ struct Stretched {
 // The unit vector with this cosine and azimuth. |cos| near 1 and near 0 keep their relative precision.
 Direction direction(double cos_theta, double phi);
 
+Direction cross(const Direction& a, const Direction& b);
+
 // A cap for the point, drawn by its other numbers. Contained: one whose cone of normals is above the surface.
 void place_cap(Point& point, bool contained);
 

@@ -22,9 +22,6 @@ inline Direction operator-(const Direction& a) {
 inline Direction normalised(const Direction& a) {
     return 1 / length(a) * a;
 }
-inline Direction cross(const Direction& a, const Direction& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 inline Direction reflect(const Direction& o, const Direction& m) {
     return 2 * dot(o, m) * m + -o;
 }
