@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-FORMS = ("strict", "strict_divide")
+FORMS = ("strict", "strict_div")
 
 
 def best_of(clvndf, only):
@@ -35,7 +35,7 @@ def main():
     ns = {}
     for name in best:
         function, *form = name.split("/")
-        if form == ["strict_divide", "float", "cached"]:
+        if form == ["strict_div", "float", "cached"]:
             ns[function] = [round(best[f"{function}/{form}/float/cached"], 3) for form in FORMS]
     arguments.output.write_text(json.dumps({"context": device, "ns": ns}, indent=1) + "\n", "utf-8")
 

@@ -171,7 +171,7 @@ std::vector<Rung> rungs(const Function& function, const runtime::Device& device)
     if (is_built_again(function)) all.push_back(again(function, 1));
     // What devices take whose own division is not correctly rounded.
     if (is_plain_sampler(function))
-        all.push_back({.name = "strict_divide",
+        all.push_back({.name = "strict_div",
                        .modes = {Mode::cached},
                        .callee = function.name,
                        .flags = "-cl-fp32-correctly-rounded-divide-sqrt -DVNDF_SOFTWARE_DIVIDE=1"});

@@ -144,6 +144,7 @@ class Distribution {
     Range range(double phi) const;
     void cumulative(double phi, const std::vector<double>& tan_theta, double* mass) const;
     void add(const Node& node, QuadratureRule& rule) const;
+    std::vector<double> edges() const;
     void add_polar_nodes(QuadratureRule& rule, int fineness) const;
     void add_slope_nodes(QuadratureRule& rule, bool fine) const;
     std::vector<double> azimuth_breaks() const;

@@ -31,6 +31,27 @@ void Distribution::add(const Node& node, QuadratureRule& rule) const {
     rule.probability.push_back(node.probability);
 }
 
+// The azimuths at which there begins or ceases to be something, found between such as are half a degree apart.
+std::vector<double> Distribution::edges() const {
+    const auto something = [&](double phi) {
+        const Range in = range(phi);
+        return in.lo < in.hi;
+    };
+    constexpr int parts = 720;
+    std::vector<double> found;
+    for (int i = 0; i < parts; ++i) {
+        double a = 2 * pi_d * i / parts, b = 2 * pi_d * (i + 1) / parts;
+        const bool first = something(a);
+        if (first == something(b)) continue;
+        for (int k = 0; k < 60; ++k) {
+            const double middle = (a + b) / 2;
+            (something(middle) == first ? a : b) = middle;
+        }
+        found.push_back(b);
+    }
+    return found;
+}
+
 // GGX: polar slopes, the length by its logarithm, in which both the density and unstretching vary over a distance
 // of order 1; the azimuth between its breaks.
 void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
@@ -51,10 +72,13 @@ void Distribution::add_polar_nodes(QuadratureRule& rule, int fineness) const {
         std::erase_if(breaks, [&](double x) { return !(std::abs(x - middle_) < half_ * (1 - 1e-9)); });
         breaks.insert(breaks.end(), {middle_ - half_, middle_, middle_ + half_});
     }
-    for (const double corner : corners_)
-        for (const double x : {corner - 2 * pi_d, corner, corner + 2 * pi_d})
-            if (kind_ == Kind::lune && (half_ > 0 ? std::abs(x - middle_) < half_ : x > 0 && x < 2 * pi_d))
-                breaks.push_back(x);
+    if (kind_ == Kind::lune) {
+        std::vector<double> corners = edges();
+        corners.insert(corners.end(), corners_.begin(), corners_.end());
+        for (const double corner : corners)
+            for (const double x : {corner - 2 * pi_d, corner, corner + 2 * pi_d})
+                if (half_ > 0 ? std::abs(x - middle_) < half_ : x > 0 && x < 2 * pi_d) breaks.push_back(x);
+    }
     std::sort(breaks.begin(), breaks.end());
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         if (!(breaks[i + 1] - breaks[i] > 1e-13)) continue;

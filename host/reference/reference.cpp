@@ -660,9 +660,10 @@ double cap_margin(std::string_view density, const double* in, Precision precisio
     }
     if (density.starts_with("vndf_ggx_pdf_wi_tilted2026")) {
         Reader<double> reader{in, precision};
-        reader.vector();
-        const Vec3<double> ng = normalised(reader.vector());
-        return horizon_margin(reader.vector(), ng) / (precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
+        const Vec3<double> wo = normalised(reader.vector()), ng = normalised(reader.vector());
+        // Of a wo across ng the cone of ng is another one, or none.
+        const double margin = std::min(std::abs(horizon_margin(reader.vector(), ng)), std::abs(dot(wo, ng)));
+        return margin / (precision == Precision::f32 ? 0x1p-24 : 0x1p-53);
     }
     const bool polygon = density.starts_with("vndf_ggx_pdf_wi_eto2023_polygon");
     if (!density.starts_with("vndf_ggx_pdf_wi_eto2023")) return no_cap;  // other arguments, too

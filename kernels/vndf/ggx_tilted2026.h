@@ -136,7 +136,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_tilted2026_lobe_with_pdf(struct vndf_ggx_t
 }
 
 // The density of a lobe's reflections: as vndf_ggx_pdf_wi_tilted2026.
-// Accuracy: 64 eps (1 + condition number); double 1e+07.
+// Accuracy: 256 eps (1 + condition number); double 64.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_tilted2026_lobe(struct vndf_ggx_tilted2026 lobe, VNDF_REAL3 wi) {
     struct vndf_ggx_conic2026 l = lobe.map;
     struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(l.wo_x, l.wo_y, l.wo_z), wi, l.alpha_x, l.alpha_y);
@@ -177,8 +177,8 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_tilted2026_with_pdf(VNDF_REAL3 wo, VNDF_RE
 // alpha: in [1e-8, 1e3] each.
 // return: per steradian of wi; 0 below either normal, of ng with a slack of 4 eps for the rounding of wi, and where the half
 //     vector is below the surface.
-// Accuracy: 64 eps (1 + condition number); double 1e+07.
-//     In double that is where ng lies across wo and alpha is 1e-8: sigma_C loses eps / alpha; 99th percentile 1.
+// Accuracy: 256 eps (1 + condition number); double 64.
+//     256 is where alphas are 1e9 apart; 99th percentile 1. Of a wo across ng to within 64 eps the density is that of either cone.
 //     Below alpha = 1e-2 the rounding of wi moves the density by more than that: use the sampler's _with_pdf form there.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_tilted2026(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL3 wi, VNDF_REAL2 alpha) {
     return vndf_ggx_pdf_wi_tilted2026_lobe(vndf_ggx_tilted2026_lobe(wo, ng, alpha), wi);
