@@ -214,37 +214,48 @@ VNDF_FN VNDF_REAL vndf_impl_level_area(VNDF_REAL wo_z, VNDF_REAL alpha_x, VNDF_R
     return VNDF_PI * wo_z * (turn > VNDF_R(0.5) ? turn - VNDF_R(1.0) : turn);
 }
 
-// What v sees of the normals above the surface that reflect wo into a cap, -wo outside of which is as in `turned` above.
-VNDF_FN VNDF_REAL vndf_impl_cap_mass(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL3 l,
-                                     VNDF_REAL one_minus_cos) {
+// The part of a cap's rim that is above -wo.z, whose normals are above the surface: an arc about an axis, with -wo outside of the
+// cap, which is turned over where it is not.
+struct vndf_impl_rim {
+    struct vndf_impl_cap cap;
+    VNDF_REAL3 from, to, axis;
+    VNDF_REAL gap;        // 1 - cos of the cap about the axis
+    int crosses, turned;  // crosses: there is such an arc
+};
+VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_minus_cos) {
+    struct vndf_impl_rim r;
     VNDF_REAL kappa = vndf_impl_cap_of(wo.x, wo.y, wo.z, l, one_minus_cos).kappa;
-    int turned = kappa < VNDF_R(0.0);
-    VNDF_REAL side = turned ? VNDF_R(-1.0) : VNDF_R(1.0);
-    VNDF_REAL gap = turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos;
-    VNDF_REAL3 axis = VNDF_MAKE3(side * l.x, side * l.y, side * l.z);
-    struct vndf_impl_cap cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, axis, gap);
-    cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * cap.wo2);
-    // Where the rim of the cap has the height -wo.z: along its azimuth, and to either side.
-    VNDF_REAL across2 = VNDF_FMA(cap.lx, cap.lx, cap.ly * cap.ly),
+    r.turned = kappa < VNDF_R(0.0);
+    VNDF_REAL side = r.turned ? VNDF_R(-1.0) : VNDF_R(1.0);
+    r.gap = r.turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos;
+    r.axis = VNDF_MAKE3(side * l.x, side * l.y, side * l.z);
+    r.cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, r.axis, r.gap);
+    r.cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * r.cap.wo2);
+    // Where it has the height -wo.z: along its azimuth, and to either side.
+    VNDF_REAL across2 = VNDF_FMA(r.cap.lx, r.cap.lx, r.cap.ly * r.cap.ly),
               rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(across2 > VNDF_R(0.0) ? across2 : VNDF_R(1.0)));
-    VNDF_REAL dx = cap.lx * rcp, dy = cap.ly * rcp, along = VNDF_FMA(wo.z, cap.lz, cap.cosine) * rcp;
+    VNDF_REAL dx = r.cap.lx * rcp, dy = r.cap.ly * rcp, along = VNDF_FMA(wo.z, r.cap.lz, r.cap.cosine) * rcp;
     VNDF_REAL rest = VNDF_FMA(wo.x, wo.x, VNDF_FMA(wo.y, wo.y, -along * along));
-    int crosses = rest > VNDF_R(0.0) && across2 > VNDF_R(0.0);
-    VNDF_REAL off = VNDF_SQRT(crosses ? rest : VNDF_R(0.0));
-    VNDF_REAL ax = VNDF_FMA(along, dx, -off * dy), ay = VNDF_FMA(along, dy, off * dx);
-    VNDF_REAL bx = VNDF_FMA(along, dx, off * dy), by = VNDF_FMA(along, dy, -off * dx);
-    VNDF_REAL arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, VNDF_MAKE3(ax, ay, -wo.z),
-                                       VNDF_MAKE3(bx, by, -wo.z), axis, gap);
-    VNDF_REAL level =
-        vndf_impl_level_area(wo.z, alpha_x, alpha_y, wo.x + bx, wo.y + by, wo.x + ax, wo.y + ay);
+    r.crosses = rest > VNDF_R(0.0) && across2 > VNDF_R(0.0);
+    VNDF_REAL off = VNDF_SQRT(r.crosses ? rest : VNDF_R(0.0));
+    r.from = VNDF_MAKE3(VNDF_FMA(along, dx, -off * dy), VNDF_FMA(along, dy, off * dx), -wo.z);
+    r.to = VNDF_MAKE3(VNDF_FMA(along, dx, off * dy), VNDF_FMA(along, dy, -off * dx), -wo.z);
+    return r;
+}
+
+// What v sees of the normals above the surface that reflect wo into the cap. arc: vndf_impl_arc_area of that part of the rim.
+VNDF_FN VNDF_REAL vndf_impl_rim_mass(struct vndf_impl_rim r, VNDF_REAL3 wo, VNDF_REAL alpha_x,
+                                     VNDF_REAL alpha_y, VNDF_REAL arc) {
+    VNDF_REAL level = vndf_impl_level_area(wo.z, alpha_x, alpha_y, wo.x + r.to.x, wo.y + r.to.y,
+                                           wo.x + r.from.x, wo.y + r.from.y);
     struct vndf_impl_cap_cone c = vndf_impl_cap_axis_apart(
-        vndf_impl_cap_cone_of(cap, wo.x, wo.y, wo.z, alpha_x, alpha_y), cap, wo, alpha_x, alpha_y);
+        vndf_impl_cap_cone_of(r.cap, wo.x, wo.y, wo.z, alpha_x, alpha_y), r.cap, wo, alpha_x, alpha_y);
     // On one side of that height altogether.
-    VNDF_REAL height = VNDF_FMA(cap.lz, cap.cosine, wo.z * cap.wo2);
-    VNDF_REAL whole = height > VNDF_R(0.0) && c.inside ? vndf_impl_cap_sigma(cap, c, gap) : VNDF_R(0.0);
-    VNDF_REAL mass = crosses ? VNDF_1_PI * (arc + level) : whole;
+    VNDF_REAL height = VNDF_FMA(r.cap.lz, r.cap.cosine, wo.z * r.cap.wo2);
+    VNDF_REAL whole = height > VNDF_R(0.0) && c.inside ? vndf_impl_cap_sigma(r.cap, c, r.gap) : VNDF_R(0.0);
+    VNDF_REAL mass = r.crosses ? VNDF_1_PI * (arc + level) : whole;
     VNDF_REAL all = VNDF_R(0.5) * vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
-    mass = turned ? all - mass : mass;
+    mass = r.turned ? all - mass : mass;
     return vndf_impl_min(vndf_impl_max(mass, VNDF_R(0.0)), all);
 }
 

@@ -12,9 +12,8 @@
 
 VNDF_BEGIN
 
-// The boundary of what is above the horizon: pi times what v sees of it so far, and where it has gone down and come up again.
+// Where the boundary of what is above the horizon has gone down, and come up again.
 struct vndf_impl_outline {
-    VNDF_REAL seen;
     VNDF_REAL down_x, down_y, up_x, up_y;  // unit vectors, z = 0
 };
 
@@ -28,11 +27,15 @@ VNDF_FN VNDF_REAL3 vndf_impl_vertex(VNDF_REAL3 w, VNDF_REAL before) {
     return VNDF_MAKE3(x * rcp, y * rcp, z * rcp);
 }
 
-// One edge more, of unit vectors, without what is below the horizon.
-VNDF_FN struct vndf_impl_outline vndf_impl_edge(struct vndf_impl_outline o, VNDF_REAL3 wo, VNDF_REAL alpha_x,
-                                                VNDF_REAL alpha_y, VNDF_REAL3 a, VNDF_REAL3 b) {
+// An arc of a great circle: its ends, and the pole that it turns about, of any length.
+struct vndf_impl_arc {
+    VNDF_REAL3 from, to, pole;
+};
+
+// With one edge more, of unit vectors.
+VNDF_FN struct vndf_impl_outline vndf_impl_outline_with(struct vndf_impl_outline o, VNDF_REAL3 a,
+                                                        VNDF_REAL3 b) {
     int down = a.z > VNDF_R(0.0) && b.z <= VNDF_R(0.0), up = a.z <= VNDF_R(0.0) && b.z > VNDF_R(0.0);
-    int seen = a.z > VNDF_R(0.0) || b.z > VNDF_R(0.0);
     // Where it crosses the horizon: b.z a - a.z b, in the direction of the edge.
     VNDF_REAL x = vndf_impl_difference_of_products(b.z, a.x, a.z, b.x),
               y = vndf_impl_difference_of_products(b.z, a.y, a.z, b.y), l2 = VNDF_FMA(x, x, y * y);
@@ -44,40 +47,60 @@ VNDF_FN struct vndf_impl_outline vndf_impl_edge(struct vndf_impl_outline o, VNDF
     o.down_y = down ? y : o.down_y;
     o.up_x = up ? x : o.up_x;
     o.up_y = up ? y : o.up_y;
-    struct vndf_impl_vector k = vndf_impl_cross(a, b);
-    VNDF_REAL3 from = VNDF_MAKE3(up ? x : a.x, up ? y : a.y, up ? VNDF_R(0.0) : a.z);
-    VNDF_REAL3 to =
-        VNDF_MAKE3(down ? x : b.x, down ? y : b.y, down || !(o.seen <= VNDF_REAL_MAX) ? VNDF_R(0.0) : b.z);
-    VNDF_REAL area =
-        vndf_impl_arc_area(wo, alpha_x, alpha_y, from, to, VNDF_MAKE3(k.x, k.y, k.z), VNDF_R(1.0));
-    o.seen += seen ? area : VNDF_R(0.0);
     return o;
 }
 
-// The horizon from where the boundary goes down to where it comes up again, and what v sees of it all: between 0 and what is
-// above the horizon at all.
-VNDF_FN VNDF_REAL vndf_impl_outlined(struct vndf_impl_outline o, VNDF_REAL3 wo, VNDF_REAL2 alpha,
-                                     VNDF_REAL alpha_x, VNDF_REAL alpha_y) {
+// The part of that edge that is above the horizon.
+VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, VNDF_REAL3 a, VNDF_REAL3 b) {
+    struct vndf_impl_arc arc;
+    int down = b.z <= VNDF_R(0.0), up = a.z <= VNDF_R(0.0);
+    struct vndf_impl_vector k = vndf_impl_cross(a, b);
+    arc.from = VNDF_MAKE3(up ? o.up_x : a.x, up ? o.up_y : a.y, up ? VNDF_R(0.0) : a.z);
+    arc.to = VNDF_MAKE3(down ? o.down_x : b.x, down ? o.down_y : b.y, down ? VNDF_R(0.0) : b.z);
+    arc.pole = VNDF_MAKE3(k.x, k.y, k.z);
+    return arc;
+}
+
+// The horizon from where the boundary goes down to where it comes up again.
+VNDF_FN struct vndf_impl_arc vndf_impl_outline_level(struct vndf_impl_outline o) {
+    struct vndf_impl_arc arc;
     VNDF_REAL side = vndf_impl_difference_of_products(o.down_x, o.up_y, o.down_y, o.up_x);
-    VNDF_REAL level = vndf_impl_arc_area(
-        wo, alpha_x, alpha_y, VNDF_MAKE3(o.down_x, o.down_y, VNDF_R(0.0)),
-        VNDF_MAKE3(o.up_x, o.up_y, VNDF_R(0.0)),
-        VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0)), VNDF_R(1.0));
-    int crosses = vndf_impl_abs(o.down_x) + vndf_impl_max(o.down_y, -o.down_y) > VNDF_R(0.0);
-    VNDF_REAL mass = VNDF_1_PI * vndf_impl_abs(o.seen + (crosses ? level : VNDF_R(0.0))),
-              visible = vndf_ggx_sigma_visible(wo, alpha);
+    arc.from = VNDF_MAKE3(o.down_x, o.down_y, VNDF_R(0.0));
+    arc.to = VNDF_MAKE3(o.up_x, o.up_y, VNDF_R(0.0));
+    arc.pole = VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0));
+    return arc;
+}
+
+// Of a polygon whose vertices, unit vectors, are a, b, c and d, with three edges d = a: an arc for each edge and one of the horizon,
+// in a loop, since the code of an arc is long. Between 0 and what is above the horizon at all.
+VNDF_FN VNDF_REAL vndf_impl_polygon_mass(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL alpha_x,
+                                         VNDF_REAL alpha_y, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c,
+                                         VNDF_REAL3 d, int edges) {
+    struct vndf_impl_outline o;
+    o.down_x = o.down_y = o.up_x = o.up_y = VNDF_R(0.0);
+    VNDF_REAL sum = wo.z * VNDF_R(0.0);
+    VNDF_REAL3 first = a;
+    for (int k = 0; k <= edges; ++k) {
+        int last = k == edges, seen = a.z > VNDF_R(0.0) || b.z > VNDF_R(0.0);
+        o = vndf_impl_outline_with(o, a, b);
+        struct vndf_impl_arc edge = vndf_impl_outline_edge(o, a, b), level = vndf_impl_outline_level(o);
+        edge.from = VNDF_MAKE3(last ? level.from.x : edge.from.x, last ? level.from.y : edge.from.y,
+                               last ? level.from.z : edge.from.z);
+        edge.to = VNDF_MAKE3(last ? level.to.x : edge.to.x, last ? level.to.y : edge.to.y,
+                             last ? level.to.z : edge.to.z);
+        edge.pole = VNDF_MAKE3(last ? level.pole.x : edge.pole.x, last ? level.pole.y : edge.pole.y,
+                               last ? level.pole.z : edge.pole.z);
+        int crosses = vndf_impl_abs(o.down_x) + vndf_impl_max(o.down_y, -o.down_y) > VNDF_R(0.0);
+        VNDF_REAL area = vndf_impl_arc_area(wo, alpha_x, alpha_y, edge.from, edge.to, edge.pole, VNDF_R(1.0));
+        sum += (last ? crosses : seen) ? area : VNDF_R(0.0);
+        a = b;
+        b = c;
+        c = d;
+        d = first;
+    }
+    VNDF_REAL mass = VNDF_1_PI * vndf_impl_abs(sum), visible = vndf_ggx_sigma_visible(wo, alpha);
     // Of vectors that are far from unit the sum may be no number.
     return wo.z > VNDF_R(0.0) ? (mass < visible ? mass : visible) : VNDF_R(0.0);
-}
-
-VNDF_FN struct vndf_impl_outline vndf_impl_outline_of(VNDF_REAL3 wo) {
-    struct vndf_impl_outline o;
-    o.seen = wo.z * VNDF_R(0.0);
-    o.down_x = VNDF_R(0.0);
-    o.down_y = VNDF_R(0.0);
-    o.up_x = VNDF_R(0.0);
-    o.up_y = VNDF_R(0.0);
-    return o;
 }
 
 // The integral of D / 4 over the part of a spherical triangle that is above the horizon.
@@ -98,11 +121,8 @@ VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3
     a = vndf_impl_vertex(a, VNDF_R(0.0));
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
-    struct vndf_impl_outline o = vndf_impl_outline_of(wo);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, a, b);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, b, c);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, c, a);
-    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y) + vndf_impl_zero(wo.x, wo.y, wo.z) + none;
+    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, a, b, c, a, 3) +
+           vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 
 // The same of a convex quadrilateral, as of a rectangle seen from the surface: a, b, c, d are its vertices in turn.
@@ -119,12 +139,8 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
     b = vndf_impl_vertex(b, a.x);
     c = vndf_impl_vertex(c, b.x);
     d = vndf_impl_vertex(d, c.x);
-    struct vndf_impl_outline o = vndf_impl_outline_of(wo);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, a, b);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, b, c);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, c, d);
-    o = vndf_impl_edge(o, wo, alpha_x, alpha_y, d, a);
-    return vndf_impl_outlined(o, wo, alpha, alpha_x, alpha_y) + vndf_impl_zero(wo.x, wo.y, wo.z) + none;
+    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, a, b, c, d, 4) +
+           vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 
 // The integral of D / 4 over a cap wi . l > cos beta: vndf_ggx_sigma_cap without the normals below the surface.
@@ -138,7 +154,10 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
 VNDF_FN VNDF_REAL vndf_ggx_cap_mass(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_minus_cos, VNDF_REAL2 alpha) {
     VNDF_REAL x = vndf_impl_alpha(alpha.x), y = vndf_impl_alpha_y(alpha.y);
     VNDF_REAL gap = vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_R(2.0));
-    VNDF_REAL mass = vndf_impl_cap_mass(wo, vndf_impl_arc_alpha(x, y), vndf_impl_arc_alpha(y, x), l, gap);
+    VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
+    struct vndf_impl_rim rim = vndf_impl_rim_of(wo, l, gap);
+    VNDF_REAL arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, rim.from, rim.to, rim.axis, rim.gap);
+    VNDF_REAL mass = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, arc);
     return vndf_impl_finite(mass) + vndf_impl_zero(wo.x, wo.y, wo.z) + vndf_impl_zero(l.x, l.y, l.z);
 }
 

@@ -98,29 +98,49 @@ VNDF_FN struct vndf_ggx_tilted2026 vndf_ggx_tilted2026_lobe(VNDF_REAL3 wo, VNDF_
     return vndf_ggx_tilted2026_of(vndf_ggx_lobe_of(wo, alpha), ng);
 }
 
-VNDF_FN struct vndf_impl_sample vndf_impl_tilted2026(struct vndf_ggx_tilted2026 t, VNDF_REAL2 u) {
+VNDF_FN struct vndf_impl_conic_normal vndf_impl_tilted_sampled(struct vndf_ggx_tilted2026 t, VNDF_REAL2 u) {
+    return vndf_impl_conic_sampled_by(t.map, u, t.about_ng || t.map.wo_z > VNDF_R(0.0));
+}
+// Below a horizon the density is 0. everywhere: it is not; of normals from all the visible hemisphere, whose area twice_sigma is.
+VNDF_FN struct vndf_impl_sample vndf_impl_tilted_reflect(struct vndf_ggx_tilted2026 t,
+                                                         struct vndf_impl_conic_normal h, int everywhere) {
     struct vndf_ggx_conic2026 l = t.map;
-    int above = l.wo_z > VNDF_R(0.0);
-    struct vndf_impl_conic_normal h = vndf_impl_conic_sampled_by(l, u, t.about_ng || above);
+    int above = l.wo_z > VNDF_R(0.0), about_ng = t.about_ng && !everywhere;
     struct vndf_impl_mirror m =
         vndf_impl_mirror_of(l.wo_x, l.wo_y, l.wo_z, h.x, h.y, h.z, l.alpha_x, l.alpha_y);
     // The horizon of the cone itself is denied by rounding alone: mirrored there, which keeps the length.
     VNDF_REAL height = vndf_impl_max(vndf_impl_abs(m.z), VNDF_R(0.0625) * VNDF_EPSILON),
-              z = above && !t.about_ng ? height : m.z;
+              z = above && !about_ng && !everywhere ? height : m.z;
     VNDF_REAL over = vndf_impl_dot(m.x, m.y, z, t.nx, t.ny, t.nz);
-    VNDF_REAL lift = t.about_ng && over < VNDF_R(0.0) ? VNDF_R(-2.0) * over * t.rcp_n2 : VNDF_R(0.0);
+    VNDF_REAL lift = about_ng && over < VNDF_R(0.0) ? VNDF_R(-2.0) * over * t.rcp_n2 : VNDF_R(0.0);
     struct vndf_impl_sample o =
         vndf_impl_conic_unit(m, VNDF_FMA(lift, t.nx, m.x), VNDF_FMA(lift, t.ny, m.y), VNDF_FMA(lift, t.nz, z),
                              l.alpha_x, l.alpha_y, l.twice_sigma);
     // The other horizon; and the normals of the cone of ng that are below the surface.
-    int meets = t.about_ng ? h.z > VNDF_R(0.0) : over > VNDF_R(0.0);
-    int kept = meets && o.z > VNDF_R(0.0) && o.pdf > VNDF_R(0.0);
+    int meets = about_ng ? h.z > VNDF_R(0.0) : over > VNDF_R(0.0);
+    o.pdf = everywhere || (meets && o.z > VNDF_R(0.0)) ? o.pdf : VNDF_R(0.0);
+    return o;
+}
+VNDF_FN struct vndf_impl_sample vndf_impl_tilted2026(struct vndf_ggx_tilted2026 t, VNDF_REAL2 u) {
+    struct vndf_impl_sample o = vndf_impl_tilted_reflect(t, vndf_impl_tilted_sampled(t, u), 0);
+    int kept = o.pdf > VNDF_R(0.0);
     // Of four shapes: of choices of 0 and a number some would be packed for the vector that is returned (impl/stretch.h).
     o.x = VNDF_FMA(o.x, kept ? VNDF_R(1.0) : VNDF_R(0.0), VNDF_R(0.0));
     o.y = kept ? o.y : VNDF_R(0.0);
     o.z = vndf_impl_max(kept ? o.z : VNDF_R(-1.0), VNDF_R(0.0));
     o.pdf = kept ? o.pdf : VNDF_R(0.0);
     return o;
+}
+// Whether wi is above both, or rounding may have moved it below ng.
+VNDF_FN int vndf_impl_tilted_above(struct vndf_ggx_tilted2026 t, VNDF_REAL3 wi) {
+    VNDF_REAL over = vndf_impl_dot(wi.x, wi.y, wi.z, t.nx, t.ny, t.nz);
+    return wi.z > VNDF_R(0.0) && (over > VNDF_R(0.0) || over * over < t.slack);
+}
+VNDF_FN VNDF_REAL vndf_impl_tilted_pdf(struct vndf_ggx_tilted2026 t, VNDF_REAL3 wi, int everywhere) {
+    struct vndf_ggx_conic2026 l = t.map;
+    struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(l.wo_x, l.wo_y, l.wo_z), wi, l.alpha_x, l.alpha_y);
+    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, l.twice_sigma, l.alpha_x, l.alpha_y);
+    return everywhere || vndf_impl_tilted_above(t, wi) ? pdf : VNDF_R(0.0);
 }
 
 // A reflection of a lobe: as vndf_ggx_sample_wi_tilted2026, for many u and one wo, ng and alpha.
@@ -138,12 +158,7 @@ VNDF_FN VNDF_REAL4 vndf_ggx_sample_wi_tilted2026_lobe_with_pdf(struct vndf_ggx_t
 // The density of a lobe's reflections: as vndf_ggx_pdf_wi_tilted2026.
 // Accuracy: 256 eps (1 + condition number); double 64.
 VNDF_FN VNDF_REAL vndf_ggx_pdf_wi_tilted2026_lobe(struct vndf_ggx_tilted2026 lobe, VNDF_REAL3 wi) {
-    struct vndf_ggx_conic2026 l = lobe.map;
-    struct vndf_impl_half h = vndf_impl_half_of(VNDF_MAKE3(l.wo_x, l.wo_y, l.wo_z), wi, l.alpha_x, l.alpha_y);
-    VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, l.twice_sigma, l.alpha_x, l.alpha_y);
-    VNDF_REAL over = vndf_impl_dot(wi.x, wi.y, wi.z, lobe.nx, lobe.ny, lobe.nz);
-    int beyond = over > VNDF_R(0.0) || over * over < lobe.slack;
-    return beyond && wi.z > VNDF_R(0.0) ? pdf : VNDF_R(0.0);
+    return vndf_impl_tilted_pdf(lobe, wi, 0);
 }
 
 // A reflection of wo above the shading normal z and a geometric normal.
@@ -206,17 +221,31 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma_tilted(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL2
     // The corners, where both horizons meet.
     VNDF_REAL3 left = VNDF_MAKE3(-y * rcp, x * rcp, VNDF_R(0.0)),
                right = VNDF_MAKE3(y * rcp, -x * rcp, VNDF_R(0.0));
-    VNDF_REAL of_z = vndf_impl_arc_area(wo, alpha_x, alpha_y, right, left,
-                                        VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(1.0)), VNDF_R(1.0));
-    VNDF_REAL of_ng = vndf_impl_arc_area(wo, alpha_x, alpha_y, of_z <= VNDF_REAL_MAX ? left : right, right,
-                                         ng, VNDF_R(1.0));
-    VNDF_REAL both = VNDF_1_PI * (of_z + of_ng), visible = vndf_ggx_sigma_visible(wo, alpha);
-    // Where ng is z or -z there are no corners. From behind every visible normal reflects above z.
+    // From behind every visible normal reflects above z, and ng is a cap alone.
+    struct vndf_impl_rim rim = vndf_impl_rim_of(wo, ng, VNDF_R(1.0));
+    int front = wo.z > VNDF_R(0.0);
+    VNDF_REAL arc = VNDF_R(0.0), sum = VNDF_R(0.0);
+    for (int k = 0; k < 2; ++k) {
+        int of_z = front && k == 0, of_ng = front && k != 0;
+        VNDF_REAL3 from =
+            VNDF_MAKE3(of_z ? right.x : (of_ng ? left.x : rim.from.x),
+                       of_z ? right.y : (of_ng ? left.y : rim.from.y), front ? VNDF_R(0.0) : rim.from.z);
+        VNDF_REAL3 to =
+            VNDF_MAKE3(of_z ? left.x : (of_ng ? right.x : rim.to.x),
+                       of_z ? left.y : (of_ng ? right.y : rim.to.y), front ? VNDF_R(0.0) : rim.to.z);
+        VNDF_REAL3 axis = VNDF_MAKE3(of_z ? VNDF_R(0.0) : (of_ng ? ng.x : rim.axis.x),
+                                     of_z ? VNDF_R(0.0) : (of_ng ? ng.y : rim.axis.y),
+                                     of_z ? VNDF_R(1.0) : (of_ng ? ng.z : rim.axis.z));
+        arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, from, to, axis, front ? VNDF_R(1.0) : rim.gap);
+        sum += arc;
+    }
+    VNDF_REAL visible = vndf_ggx_sigma_visible(wo, alpha);
+    // Where ng is z or -z there are no corners.
     VNDF_REAL level = ng.z > VNDF_R(0.0) ? visible : VNDF_R(0.0);
-    VNDF_REAL sigma = size > VNDF_R(0.0) ? both : level;
+    VNDF_REAL sigma = size > VNDF_R(0.0) ? VNDF_1_PI * sum : level;
     sigma = vndf_impl_min(vndf_impl_max(sigma, VNDF_R(0.0)), visible);
-    VNDF_REAL behind = vndf_impl_cap_mass(wo, alpha_x, alpha_y, ng, VNDF_R(1.0));
-    return vndf_impl_finite(wo.z > VNDF_R(0.0) ? sigma : behind) + vndf_impl_zero(wo.x, wo.y, wo.z) +
+    VNDF_REAL behind = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, arc);
+    return vndf_impl_finite(front ? sigma : behind) + vndf_impl_zero(wo.x, wo.y, wo.z) +
            vndf_impl_zero(ng.x, ng.y, ng.z);
 }
 
