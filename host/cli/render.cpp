@@ -470,11 +470,11 @@ void add_render(CLI::App& app, Common& common) {
             ->check(CLI::IsMember(values))
             ->capture_default_str();
     };
-    r->sampler =
-        choice("--sampler", r->choices.sampler,
-               "how metals draw directions: bounded, plain or conic visible normals; to compare with, ndf:\n"
-               "any normals, and cosine: none",
-               render::samplers());
+    r->sampler = choice(
+        "--sampler", r->choices.sampler,
+        "how metals draw directions: bounded, plain or conic visible normals, or tilted: conic, above the\n"
+        "geometric normal, too; to compare with, ndf: any normals, and cosine: none",
+        render::samplers());
     choice("--ndf", r->choices.ndf, "distribution of normals: ggx or beckmann", {"ggx", "beckmann"});
     choice("--masking", r->choices.masking, "masking and shadowing: correlated or separable",
            {"correlated", "separable"});

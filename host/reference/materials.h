@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/terms.h"
+#include "reference/tilted_maps.h"
 
 namespace vndf::reference {
 
@@ -102,7 +103,7 @@ R eta_dispersed(const R& eta, const R& dispersion, const R& wavelength) {
 
 struct MaterialModel {
     enum class Ndf { ggx, beckmann } ndf = Ndf::ggx;
-    enum class Sampling { plain, bounded, conic } sampling = Sampling::bounded;
+    enum class Sampling { plain, bounded, conic, tilted } sampling = Sampling::bounded;
     enum class Fresnel { none, conductor, schlick, f82 } fresnel = Fresnel::schlick;
     enum class Masking { correlated, separable } masking = Masking::correlated;
     enum class Energy { none, turquin, kulla_conty } energy = Energy::none;
@@ -332,9 +333,14 @@ class MaterialView {
         mean_cosine_ = Interface<R>::mean_cosine(wo_, p_.alpha_x, p_.alpha_y);
         p_.diffuse_roughness = within<R>(p.diffuse_roughness, 0, 1);
         p_.coat = within<R>(p.coat, 0, 1), p_.coat_alpha = within<R>(p.coat_alpha, least, 1);
-        // From the denser side of a body bounded and conic sampling are plain.
+        // From the denser side of a body all sampling is plain.
         const bool denser = body && media_.there < media_.here;
-        base_ = facets(p_.alpha_x, p_.alpha_y, denser ? MaterialModel::Sampling::plain : model.sampling);
+        // Through a thin wall tilted sampling is conic.
+        const bool wall = transmits() && p.thin_walled && model.sampling == MaterialModel::Sampling::tilted;
+        base_ = facets(p_.alpha_x, p_.alpha_y,
+                       denser ? MaterialModel::Sampling::plain
+                       : wall ? MaterialModel::Sampling::conic
+                              : model.sampling);
         coat_ = facets(p_.coat_alpha, p_.coat_alpha, model.sampling);
         if (model.energy == MaterialModel::Energy::kulla_conty)
             for (int c = 0; c < 3; ++c) {
@@ -365,14 +371,36 @@ class MaterialView {
         R alpha_x, alpha_y;
         View<R> view;
         Bound<R> bound;
-        R visible;
+        R drawn;        // the area of the cone, where there is one
+        R drawn_slope;  // what the rounding of all that it is made of does to it
         MaterialModel::Sampling sampling;
     };
     Facets facets(const R& alpha_x, const R& alpha_y, MaterialModel::Sampling sampling) const {
         const View<R> seen = view(wo_, alpha_x, alpha_y);
-        const bool conic = wo_.z > 0 && sampling == MaterialModel::Sampling::conic;
-        return {alpha_x, alpha_y, seen, reference::bound(seen, wo_), conic ? ggx_sigma_visible(seen) : R(0),
-                sampling};
+        R drawn = 0, slope = 0;
+        if (wo_.z > 0 && sampling == MaterialModel::Sampling::conic) drawn = ggx_sigma_visible(seen);
+        if (wo_.z > 0 && sampling == MaterialModel::Sampling::tilted) {
+            const Tilted<R> cones = tilted(wo_, ng_, alpha_x, alpha_y);
+            drawn = cones.sigma();
+            if (cones.about_ng()) slope = tilted_slope(alpha_x, alpha_y, drawn);
+        }
+        return {alpha_x, alpha_y, seen, reference::bound(seen, wo_), drawn, slope, sampling};
+    }
+    // The sum of |x d(sigma) / dx| / sigma, by differences.
+    R tilted_slope(const R& alpha_x, const R& alpha_y, const R& sigma) const {
+        const R step = R(1e-7);
+        R sum = 0;
+        for (int k = 0; k < 8; ++k) {
+            const auto moved = [&](const R& factor) {
+                Vec3<R> wo = wo_, ng = ng_;
+                R x = alpha_x, y = alpha_y;
+                R* all[8] = {&wo.x, &wo.y, &wo.z, &ng.x, &ng.y, &ng.z, &x, &y};
+                *all[k] *= factor;
+                return tilted(wo, ng, x, y).sigma();
+            };
+            sum += std::abs(moved(1 + step) - moved(1 - step)) / (2 * step * sigma);
+        }
+        return sum;
     }
     bool crosses(const Vec3<R>& wi) const { return transmits() && wi.z < 0; }
 
@@ -405,7 +433,7 @@ class MaterialView {
         const R exponent = this->exponent(h, coat_), pdf = facets_pdf(coat_, wi);
         value.pdf += chance * pdf;
         if (density_alone_) return value;
-        value.pdf_slope += (own + 2 * chance * exponent) * pdf;
+        value.pdf_slope += (own + chance * (2 * exponent + coat_.drawn_slope)) * pdf;
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = value.settled && settled(coat_, wi, height_o, height_i);
         if (!(wo_.z > 0) || !(wi.z > 0) || !(height_o > 0) || !(height_i > 0)) return value;
@@ -466,6 +494,7 @@ class MaterialView {
         const R unlit =
             (1 - p_.metal) * (1 - p_.transmission) * (lambert_pdf(wi) + mirror_pdf) * smooth_slope(wo_.z);
         value.pdf_slope = by_cosine(pdf, cosine) * cosine + unlit + value.pdf * choice_condition() +
+                          (value.pdf - diffuse_pdf) * base_.drawn_slope +
                           (by_normal() ? (1 - p_.metal) * mirror_pdf * odds_rounding(cosine, losses) : R(0));
         const R height_o = dot(wo_, ng_), height_i = dot(wi, ng_);
         value.settled = settled(base_, wi, height_o, height_i) && !opposite(wi);
@@ -684,6 +713,8 @@ class MaterialView {
     // A height is a sum of rounded products, and next to the edge of the bounded cap its density is any of two.
     bool settled(const Facets& f, const Vec3<R>& wi, const R& height_o, const R& height_i) const {
         if (level(height_o) || level(height_i)) return false;
+        // Of a wo across ng the cone is either of two.
+        if (f.sampling == MaterialModel::Sampling::tilted && std::abs(height_o) < 64 * unit()) return false;
         if (f.sampling != MaterialModel::Sampling::bounded || !(wo_.z > 0)) return true;
         const Margin<R> margin = eto_margin(wo_, wi, f.view, f.bound);
         return std::abs(margin.inside) > 64 * unit() * margin.per_unit;
@@ -768,9 +799,10 @@ class MaterialView {
         const bool front = wo_.z > 0;
         if (front && f.sampling == MaterialModel::Sampling::bounded)
             return ggx_pdf_wi_bounded(wo_, wi, f.view, f.bound, precision_);
-        if (front && f.sampling == MaterialModel::Sampling::conic) {
-            const Vec3<R> h = half(wi);
-            return wi.z > 0 ? R(Ggx::ndf(h, f.alpha_x, f.alpha_y) / (4 * f.visible)) : R(0);
+        const bool tilted = f.sampling == MaterialModel::Sampling::tilted;
+        if (front && (tilted || f.sampling == MaterialModel::Sampling::conic)) {
+            const bool above = wi.z > 0 && (!tilted || dot(wi, ng_) > 0);
+            return above ? R(Ggx::ndf(half(wi), f.alpha_x, f.alpha_y) / (4 * f.drawn)) : R(0);
         }
         return pdf_wi<Ggx, R>(wo_, wi, f.alpha_x, f.alpha_y);
     }

@@ -317,7 +317,7 @@ bool of_paths(const std::string& effect, bool alpha) {
 }  // namespace
 
 const std::vector<std::string>& samplers() {
-    static const std::vector<std::string> all{"bounded", "plain", "conic", "ndf", "cosine"};
+    static const std::vector<std::string> all{"bounded", "plain", "conic", "tilted", "ndf", "cosine"};
     return all;
 }
 

@@ -13,7 +13,8 @@ __kernel void vndf_batch_albedo(__global const VNDF_REAL* restrict in_wo_x,
                                 __global VNDF_REAL* restrict out_loss) {
     const size_t i = get_global_id(0);
     const struct vndf_impl_facets c = vndf_impl_facets_of(VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]),
-                                                          VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]));
+                                                          VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]),
+                                                          VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(1.0)));
     const VNDF_REAL step = VNDF_R(1.0) / VNDF_ALBEDO_POINTS;
     VNDF_REAL loss = VNDF_R(0.0);
     for (int j = 0; j < VNDF_ALBEDO_POINTS; ++j) {

@@ -29,7 +29,8 @@ __kernel void vndf_batch_glass(
     const VNDF_REAL3 wo = VNDF_MAKE3(in_wo_x[i], in_wo_y[i], in_wo_z[i]);
     const VNDF_REAL2 alpha = VNDF_MAKE2(in_alpha_x[i], in_alpha_y[i]);
     const VNDF_REAL eta = in_eta[i], step = VNDF_R(1.0) / VNDF_ALBEDO_POINTS;
-    const struct vndf_impl_facets c = vndf_impl_facets_of(wo, alpha);
+    const struct vndf_impl_facets c =
+        vndf_impl_facets_of(wo, alpha, VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(1.0)));
     VNDF_REAL reflected = VNDF_R(0.0), through = VNDF_R(0.0), first = VNDF_R(0.0);
     for (int j = 0; j < VNDF_ALBEDO_POINTS; ++j) {
         const struct vndf_batch_point x = vndf_batch_point_of(((VNDF_REAL)j + VNDF_R(0.5)) * step);

@@ -222,17 +222,24 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_drawn_density(struct vndf_impl_bsdf_lobes l, st
     return vndf_impl_bsdf_all(l).pdf;
 }
 
-// What is lost: a reflection below the surface, where refractions count alone; a refraction above it, or one that is none.
+// What is lost: a reflection below the surface, where refractions count alone; a refraction above it, or one that is none; and
+// what the facets' sampler does not keep.
 VNDF_FN int vndf_impl_bsdf_lost(struct vndf_impl_bsdf_view v, struct vndf_impl_bsdf_lobes l,
                                 struct vndf_impl_drawn d) {
+#if VNDF_IMPL_FACETS
+    int unkept = d.lobe != VNDF_BSDF_LAMBERT && vndf_impl_facets_lost(d.w);
+#else
+    int unkept = 0;
+#endif
 #if VNDF_DIELECTRIC
     int through = d.lobe == VNDF_BSDF_TRANSMISSION;
-    return v.media.transmits && (l.specular.crosses != through || (through && !(d.w.pdf > VNDF_R(0.0))));
+    return unkept ||
+           (v.media.transmits && (l.specular.crosses != through || (through && !(d.w.pdf > VNDF_R(0.0)))));
 #else
     (void)v;
     (void)l;
     (void)d;
-    return 0;
+    return unkept;
 #endif
 }
 

@@ -47,13 +47,13 @@ VNDF_FN VNDF_REAL vndf_impl_coat_reflects(VNDF_REAL cosine, VNDF_REAL alpha) {
 
 // within: whether wo is inside of a body. last: at least 0, of what was computed before: made dependent on it, so that LLVM's SLP
 // pass does not pack the two; the other choice is never taken.
-VNDF_FN struct vndf_impl_coat vndf_impl_coat_of(VNDF_REAL3 o, struct vndf_bsdf b, int within,
+VNDF_FN struct vndf_impl_coat vndf_impl_coat_of(VNDF_REAL3 o, VNDF_REAL3 ng, struct vndf_bsdf b, int within,
                                                 VNDF_REAL last) {
     struct vndf_impl_coat c;
     VNDF_REAL z = last >= VNDF_R(0.0) ? o.z : VNDF_R(1.0);
     c.alpha = vndf_impl_share(vndf_impl_alpha(last >= VNDF_R(0.0) ? b.coat_alpha : VNDF_R(1.0)));
     c.factor = vndf_impl_reflectance(b.coat);
-    c.facets = vndf_impl_facets_of(VNDF_MAKE3(o.x, o.y, z), VNDF_MAKE2(c.alpha, c.alpha));
+    c.facets = vndf_impl_facets_of(VNDF_MAKE3(o.x, o.y, z), VNDF_MAKE2(c.alpha, c.alpha), ng);
     c.share = within ? VNDF_R(0.0) : c.factor * vndf_impl_coat_reflects(z, c.alpha);
     c.within = within;
     return c;

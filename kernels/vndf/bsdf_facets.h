@@ -4,11 +4,27 @@
 // weight of a sample. The weight is F G2 / G1(wo), over what the sampler's density has on that of mirrored visible normals;
 // the density cancels, so that it is accurate where the density is not.
 //
+// Samples are lost below the geometric normal ng, too, but with VNDF_SAMPLING tilted next to none.
+//
 // Everything asked of a distribution stands here, once for each choice; no other file of a material knows them.
 #ifndef VNDF_BSDF_FACETS_H
 #define VNDF_BSDF_FACETS_H
 
 #include "effects.h"
+
+// The cone that reflections are drawn from, and whether it may be about the geometric normal.
+#if VNDF_CHOSEN(VNDF_SAMPLING, tilted) && VNDF_SHADING_NORMAL
+#define VNDF_IMPL_TILTED 1
+#define VNDF_IMPL_CONIC 1
+#define VNDF_IMPL_CONE tilted.map
+#elif VNDF_CHOSEN(VNDF_SAMPLING, conic) || VNDF_CHOSEN(VNDF_SAMPLING, tilted)
+#define VNDF_IMPL_TILTED 0
+#define VNDF_IMPL_CONIC 1
+#define VNDF_IMPL_CONE conic
+#else
+#define VNDF_IMPL_TILTED 0
+#define VNDF_IMPL_CONIC 0
+#endif
 
 #if VNDF_CHOSEN(VNDF_NDF, beckmann)
 #include "beckmann_jakob2014.h"
@@ -17,7 +33,9 @@
 #include "ggx.h"
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
 #include "ggx_eto2023.h"
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_TILTED
+#include "ggx_tilted2026.h"
+#elif VNDF_IMPL_CONIC
 #include "ggx_conic2026.h"
 #endif
 #endif
@@ -46,8 +64,9 @@ struct vndf_impl_facets_pair {
 struct vndf_impl_facets {
     struct vndf_beckmann_lobe lobe;
 };
-VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL3 ng) {
     struct vndf_impl_facets c;
+    (void)ng;
     c.lobe = vndf_beckmann_lobe_of(wo, alpha);
     return c;
 }
@@ -119,27 +138,47 @@ struct vndf_impl_facets {
     struct vndf_ggx_lobe lobe;
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     struct vndf_impl_bound bound;
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_TILTED
+    struct vndf_ggx_tilted2026 tilted;
+#elif VNDF_IMPL_CONIC
     struct vndf_ggx_conic2026 conic;
+#endif
+#if VNDF_IMPL_CONIC
     int plain;  // visible normals mirrored instead
 #endif
 };
-VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 alpha) {
+VNDF_FN struct vndf_impl_facets vndf_impl_facets_of(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL3 ng) {
     struct vndf_impl_facets c;
     c.lobe = vndf_ggx_lobe_of(wo, alpha);
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     c.bound = vndf_impl_ggx_bound(c.lobe);
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_TILTED
+    // From behind all visible normals are mirrored.
+    int front = wo.z > VNDF_R(0.0);
+    c.tilted = vndf_ggx_tilted2026_of(
+        c.lobe,
+        VNDF_MAKE3(front ? ng.x : VNDF_R(0.0), front ? ng.y : VNDF_R(0.0), front ? ng.z : VNDF_R(1.0)));
+    c.plain = 0;
+#elif VNDF_IMPL_CONIC
     c.conic = vndf_ggx_conic2026_lobe(wo, alpha);
     c.plain = 0;
 #endif
+    (void)ng;
     return c;
 }
+#if VNDF_IMPL_TILTED
+// Whether directions below either horizon count, too.
+VNDF_FN int vndf_impl_facets_everywhere(struct vndf_impl_facets c) {
+    return c.plain || !(c.lobe.wo_z > VNDF_R(0.0));
+}
+#endif
 
 VNDF_FN VNDF_REAL vndf_impl_facets_pdf(struct vndf_impl_facets c, VNDF_REAL3 wi) {
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     return vndf_impl_ggx_bounded_pdf(c.lobe, wi, c.bound);
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_TILTED
+    return vndf_impl_tilted_pdf(c.tilted, wi, vndf_impl_facets_everywhere(c));
+#elif VNDF_IMPL_CONIC
     return vndf_ggx_pdf_wi_conic2026_lobe(c.conic, wi);
 #else
     return vndf_ggx_pdf_wi_lobe(c.lobe, wi);
@@ -150,8 +189,8 @@ VNDF_FN VNDF_REAL vndf_impl_facets_pdf(struct vndf_impl_facets c, VNDF_REAL3 wi)
 VNDF_FN VNDF_REAL vndf_impl_facets_seen(struct vndf_impl_facets c) {
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     return c.bound.height;
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
-    return c.conic.twice_sigma;
+#elif VNDF_IMPL_CONIC
+    return c.VNDF_IMPL_CONE.twice_sigma;
 #else
     return c.lobe.axis.height;
 #endif
@@ -161,8 +200,8 @@ VNDF_FN struct vndf_impl_facets vndf_impl_facets_after(struct vndf_impl_facets c
     int known = last >= VNDF_R(0.0);
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     c.bound.height = known ? c.bound.height : VNDF_R(1.0);
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
-    c.conic.twice_sigma = known ? c.conic.twice_sigma : VNDF_R(1.0);
+#elif VNDF_IMPL_CONIC
+    c.VNDF_IMPL_CONE.twice_sigma = known ? c.VNDF_IMPL_CONE.twice_sigma : VNDF_R(1.0);
 #else
     c.lobe.axis.height = known ? c.lobe.axis.height : VNDF_R(1.0);
 #endif
@@ -175,10 +214,11 @@ VNDF_FN VNDF_REAL vndf_impl_facets_share(struct vndf_impl_facets c) {
     // (k z + t) / (z + t). At wo = -z both are 0.
     VNDF_REAL whole = c.lobe.axis.height;
     return vndf_impl_share(VNDF_DIVIDE(c.bound.height, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_CONIC
     // sigma_vis / sigma.
     VNDF_REAL whole = vndf_impl_lobe_twice_sigma(c.lobe);
-    return vndf_impl_share(VNDF_DIVIDE(c.conic.twice_sigma, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
+    return vndf_impl_share(
+        VNDF_DIVIDE(c.VNDF_IMPL_CONE.twice_sigma, whole > VNDF_R(0.0) ? whole : VNDF_R(1.0)));
 #else
     (void)c;
     return VNDF_R(1.0);
@@ -203,7 +243,10 @@ VNDF_FN VNDF_REAL vndf_impl_facets_weight(struct vndf_impl_facets c, VNDF_REAL3 
 VNDF_FN struct vndf_impl_sample vndf_impl_facets_sample(struct vndf_impl_facets c, VNDF_REAL2 u) {
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     return vndf_impl_lobe_reflection(c.lobe, c.bound.height, vndf_impl_bounded_half(c.lobe, c.bound, u));
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_TILTED
+    return vndf_impl_tilted_reflect(c.tilted, vndf_impl_tilted_sampled(c.tilted, u),
+                                    vndf_impl_facets_everywhere(c));
+#elif VNDF_IMPL_CONIC
     return vndf_impl_conic2026(c.conic, u);
 #else
     return vndf_impl_lobe_reflection(c.lobe, c.lobe.axis.height, vndf_impl_cap_half(c.lobe, u));
@@ -216,8 +259,8 @@ VNDF_FN struct vndf_impl_facets vndf_impl_facets_plain(struct vndf_impl_facets c
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     c.bound.gap_z = plain ? VNDF_R(0.0) : c.bound.gap_z;
     c.bound.height = plain ? c.lobe.axis.height : c.bound.height;
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
-    c.conic.twice_sigma = plain ? vndf_impl_lobe_twice_sigma(c.lobe) : c.conic.twice_sigma;
+#elif VNDF_IMPL_CONIC
+    c.VNDF_IMPL_CONE.twice_sigma = plain ? vndf_impl_lobe_twice_sigma(c.lobe) : c.VNDF_IMPL_CONE.twice_sigma;
     c.plain = plain;
 #else
     (void)plain;
@@ -239,10 +282,15 @@ VNDF_FN VNDF_REAL vndf_impl_facets_either_pdf(struct vndf_impl_facets c, struct 
     struct vndf_impl_half h = vndf_impl_half_along(f.x, f.y, f.z, c.lobe.alpha_x, c.lobe.alpha_y);
 #if VNDF_CHOSEN(VNDF_SAMPLING, bounded)
     VNDF_REAL pdf = vndf_impl_ggx_bounded_half_pdf(c.lobe, h, vndf_impl_facets_cap(c, !f.crosses));
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
-    VNDF_REAL n = f.crosses ? vndf_impl_lobe_twice_sigma(c.lobe) : c.conic.twice_sigma;
+#elif VNDF_IMPL_CONIC
+    VNDF_REAL n = f.crosses ? vndf_impl_lobe_twice_sigma(c.lobe) : c.VNDF_IMPL_CONE.twice_sigma;
     VNDF_REAL pdf = vndf_impl_ggx_reflection_pdf(h, n, c.lobe.alpha_x, c.lobe.alpha_y);
+#if VNDF_IMPL_TILTED
+    pdf = f.crosses || vndf_impl_facets_everywhere(c) || vndf_impl_tilted_above(c.tilted, wi) ? pdf
+                                                                                              : VNDF_R(0.0);
+#else
     pdf = f.crosses || wi.z > VNDF_R(0.0) || c.lobe.wo_z <= VNDF_R(0.0) ? pdf : VNDF_R(0.0);
+#endif
 #else
     VNDF_REAL pdf =
         vndf_impl_ggx_reflection_pdf(h, vndf_impl_lobe_twice_sigma(c.lobe), c.lobe.alpha_x, c.lobe.alpha_y);
@@ -281,15 +329,23 @@ VNDF_FN struct vndf_impl_facets_pair vndf_impl_facets_both(struct vndf_impl_face
     struct vndf_impl_bound cap = vndf_impl_facets_cap(c, mirrors);
     struct vndf_impl_vector h = vndf_impl_bounded_half(c.lobe, cap, u);
     both.mirrored = vndf_impl_lobe_reflection(c.lobe, cap.height, h);
-#elif VNDF_CHOSEN(VNDF_SAMPLING, conic)
+#elif VNDF_IMPL_CONIC
     struct vndf_impl_vector h = vndf_impl_cap_half(c.lobe, u);
+#if VNDF_IMPL_TILTED
+    struct vndf_impl_conic_normal g = vndf_impl_tilted_sampled(c.tilted, u);
+#else
     struct vndf_impl_conic_normal g = vndf_impl_conic_sampled(c.conic, u);
+#endif
     g.x = c.plain ? h.x : g.x;
     g.y = c.plain ? h.y : g.y;
     g.z = c.plain ? h.z : g.z;
+#if VNDF_IMPL_TILTED
+    both.mirrored = vndf_impl_tilted_reflect(c.tilted, g, vndf_impl_facets_everywhere(c));
+#else
     both.mirrored =
         vndf_impl_conic_reflect(g, c.lobe.wo_x, c.lobe.wo_y, c.lobe.wo_z, c.lobe.alpha_x, c.lobe.alpha_y,
                                 c.conic.twice_sigma, !c.plain && c.lobe.wo_z > VNDF_R(0.0));
+#endif
     (void)mirrors;
 #else
     struct vndf_impl_vector h = vndf_impl_cap_half(c.lobe, u);
@@ -302,6 +358,16 @@ VNDF_FN struct vndf_impl_facets_pair vndf_impl_facets_both(struct vndf_impl_face
 #endif
 
 #endif
+
+// Whether what facets reflected is lost: what tilted sampling has below a horizon. Elsewhere rounding may say otherwise there.
+VNDF_FN int vndf_impl_facets_lost(struct vndf_impl_sample mirrored) {
+#if VNDF_IMPL_TILTED
+    return !(mirrored.pdf > VNDF_R(0.0));
+#else
+    (void)mirrored;
+    return 0;
+#endif
+}
 
 VNDF_END
 

@@ -104,6 +104,17 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_side(VNDF_REAL3 wo, struct vndf_bsdf b) {
 #endif
 }
 
+// The geometric normal on that side, where there is one of its own.
+VNDF_FN VNDF_REAL3 vndf_impl_bsdf_ng(VNDF_REAL side, struct vndf_bsdf b) {
+#if VNDF_SHADING_NORMAL
+    return VNDF_MAKE3(side * b.ng_x, side * b.ng_y, b.ng_z);
+#else
+    (void)side;
+    (void)b;
+    return VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(1.0));
+#endif
+}
+
 // --- Microfacets ---
 
 #if VNDF_IMPL_SPECULAR
@@ -125,6 +136,31 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_metal(struct vndf_bsdf b) {
 #else
     (void)b;
     return VNDF_CONDUCTOR ? VNDF_R(1.0) : VNDF_R(0.0);
+#endif
+}
+
+#if VNDF_DIELECTRIC
+// The part that goes through of what gets in.
+VNDF_FN VNDF_REAL vndf_impl_bsdf_transmission(struct vndf_bsdf b) {
+#if VNDF_LAMBERT
+    return vndf_impl_share(vndf_impl_max(b.transmission, VNDF_R(0.0)));
+#else
+    (void)b;
+    return VNDF_R(1.0);
+#endif
+}
+#endif
+
+// The geometric normal that facets are drawn by. What goes straight through a wall is a reflection turned to the other side, and there
+// is judged by its opposite: other directions than reflections above ng.
+VNDF_FN VNDF_REAL3 vndf_impl_bsdf_facets_ng(VNDF_REAL3 ng, struct vndf_bsdf b) {
+#if VNDF_DIELECTRIC && VNDF_THIN_WALLED
+    int thin = b.thin_walled && vndf_impl_bsdf_transmission(b) > VNDF_R(0.0) &&
+               vndf_impl_bsdf_metal(b) < VNDF_R(1.0);
+    return VNDF_MAKE3(thin ? VNDF_R(0.0) : ng.x, thin ? VNDF_R(0.0) : ng.y, thin ? VNDF_R(1.0) : ng.z);
+#else
+    (void)b;
+    return ng;
 #endif
 }
 

@@ -128,11 +128,7 @@ VNDF_FN VNDF_REAL vndf_impl_interface_lets_in(struct vndf_impl_interface n, VNDF
 VNDF_FN struct vndf_impl_interface vndf_impl_interface_of(VNDF_REAL3 o, struct vndf_bsdf b, VNDF_REAL side) {
     struct vndf_impl_interface n;
     VNDF_REAL ior = vndf_impl_bsdf_index(b), metal = vndf_impl_bsdf_metal(b);
-#if VNDF_LAMBERT
-    n.transmission = vndf_impl_share(vndf_impl_max(b.transmission, VNDF_R(0.0)));
-#else
-    n.transmission = VNDF_R(1.0);
-#endif
+    n.transmission = vndf_impl_bsdf_transmission(b);
     n.transmits = n.transmission > VNDF_R(0.0) && metal < VNDF_R(1.0);
 #if VNDF_THIN_WALLED
     n.body = n.transmits && !b.thin_walled;
@@ -220,6 +216,7 @@ struct vndf_impl_bsdf_view {
     struct vndf_bsdf b;
     VNDF_REAL side;  // what turns z to the side of wo
     VNDF_REAL3 o;    // wo on that side
+    VNDF_REAL3 ng;   // the geometric normal there
 #if VNDF_IMPL_FACETS
     struct vndf_impl_facets facets;  // of the base; the coat's where there are no others
 #endif
@@ -238,8 +235,9 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
     v.b = b;
     v.side = vndf_impl_bsdf_side(wo, b);
     v.o = VNDF_MAKE3(wo.x, wo.y, v.side * wo.z);
+    v.ng = vndf_impl_bsdf_ng(v.side, b);
 #if VNDF_IMPL_SPECULAR
-    v.facets = vndf_impl_facets_of(v.o, vndf_impl_bsdf_alpha(b));
+    v.facets = vndf_impl_facets_of(v.o, vndf_impl_bsdf_alpha(b), vndf_impl_bsdf_facets_ng(v.ng, b));
 #endif
 #if VNDF_DIELECTRIC
     v.media = vndf_impl_interface_of(v.o, b, v.side);
@@ -259,7 +257,7 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
 #else
     VNDF_REAL last = VNDF_R(1.0);
 #endif
-    v.coat = vndf_impl_coat_of(v.o, b, within, last);
+    v.coat = vndf_impl_coat_of(v.o, v.ng, b, within, last);
 #if !VNDF_IMPL_SPECULAR
     v.facets = v.coat.facets;
 #endif
@@ -277,7 +275,7 @@ VNDF_FN VNDF_REAL vndf_impl_bsdf_passing(struct vndf_impl_bsdf_view v, VNDF_REAL
     VNDF_REAL3 wi = VNDF_MAKE3(turn * i.x, turn * i.y, turn * i.z);
     int above = v.o.z > VNDF_R(0.0) && wi.z > VNDF_R(0.0);
 #if VNDF_SHADING_NORMAL
-    VNDF_REAL x = v.side * v.b.ng_x, y = v.side * v.b.ng_y, z = v.b.ng_z;
+    VNDF_REAL x = v.ng.x, y = v.ng.y, z = v.ng.z;
     VNDF_REAL height_o = VNDF_FMA(v.o.x, x, VNDF_FMA(v.o.y, y, v.o.z * z));
     // Made dependent on the other height, so that LLVM's SLP pass does not pack the two; where it is none, above is 0.
     above = above && height_o > VNDF_R(0.0);
@@ -331,7 +329,9 @@ VNDF_FN struct vndf_impl_facets vndf_impl_bsdf_chosen_facets(struct vndf_impl_bs
     VNDF_REAL x = coated ? v.coat.alpha : alpha.x, y = coated ? v.coat.alpha : alpha.y;
     // Dependent on the coat's own, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
     VNDF_REAL z = vndf_impl_facets_seen(v.coat.facets) >= VNDF_R(0.0) ? v.o.z : VNDF_R(1.0);
-    struct vndf_impl_facets facets = vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y));
+    VNDF_REAL3 own = vndf_impl_bsdf_facets_ng(v.ng, v.b);
+    VNDF_REAL3 ng = VNDF_MAKE3(coated ? v.ng.x : own.x, coated ? v.ng.y : own.y, coated ? v.ng.z : own.z);
+    struct vndf_impl_facets facets = vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y), ng);
 #if VNDF_DIELECTRIC
     facets = vndf_impl_facets_plain(facets, v.media.plain && !coated);
 #endif

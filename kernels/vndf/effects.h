@@ -4,8 +4,9 @@
 // A choice is one of several models and changes results:
 //   VNDF_NDF       ggx (default), beckmann
 //   VNDF_SAMPLING  how specular reflections are drawn: plain, visible normals mirrored; bounded (default), from the
-//                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h. From the denser side of a
-//                  body all are as plain. Beckmann has plain alone
+//                  smaller cap of ggx_eto2023.h; conic, above the horizon alone, ggx_conic2026.h; tilted, above that of the
+//                  geometric normal as well, ggx_tilted2026.h (conic without VNDF_SHADING_NORMAL). From the denser side of a
+//                  body all are as plain; through a thin wall tilted is as conic. Beckmann has plain alone
 //   VNDF_FRESNEL   of the conductor: none, it reflects everything; conductor, eta and k; schlick (default), f0 and f90; f82,
 //                  f0 and the tint at 82 degrees
 //   VNDF_MASKING   of reflections: correlated (default), separable. Of refractions always separable
@@ -46,6 +47,7 @@
 #define VNDF_SAMPLING_IS_plain 1
 #define VNDF_SAMPLING_IS_bounded 2
 #define VNDF_SAMPLING_IS_conic 3
+#define VNDF_SAMPLING_IS_tilted 4
 #define VNDF_FRESNEL_IS_none 1
 #define VNDF_FRESNEL_IS_conductor 2
 #define VNDF_FRESNEL_IS_schlick 3
@@ -150,7 +152,7 @@
 #endif
 #if VNDF_CAT(VNDF_SAMPLING_IS_, VNDF_SAMPLING) >= 1
 #else
-#error "clvndf: unknown VNDF_SAMPLING; plain, bounded and conic are allowed"
+#error "clvndf: unknown VNDF_SAMPLING; plain, bounded, conic and tilted are allowed"
 #undef VNDF_SAMPLING
 #define VNDF_SAMPLING plain
 #endif

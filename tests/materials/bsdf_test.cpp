@@ -44,8 +44,10 @@ Choice choice_of(const std::string& ndf, const std::string& sampling, const std:
                  const std::string& masking, const std::string& transport,
                  const std::string& energy = "none") {
     using M = MaterialModel;
-    const std::map<std::string, M::Sampling> samplings{
-        {"plain", M::Sampling::plain}, {"bounded", M::Sampling::bounded}, {"conic", M::Sampling::conic}};
+    const std::map<std::string, M::Sampling> samplings{{"plain", M::Sampling::plain},
+                                                       {"bounded", M::Sampling::bounded},
+                                                       {"conic", M::Sampling::conic},
+                                                       {"tilted", M::Sampling::tilted}};
     const std::map<std::string, M::Fresnel> fresnels{{"none", M::Fresnel::none},
                                                      {"conductor", M::Fresnel::conductor},
                                                      {"schlick", M::Fresnel::schlick},
@@ -70,6 +72,7 @@ std::vector<Choice> some_choices() {
     return {choice_of("ggx", "bounded", "schlick", "correlated", "radiance"),
             choice_of("ggx", "plain", "conductor", "correlated", "importance"),
             choice_of("ggx", "conic", "f82", "separable", "radiance"),
+            choice_of("ggx", "tilted", "schlick", "correlated", "radiance"),
             choice_of("beckmann", "plain", "conductor", "correlated", "radiance"),
             choice_of("beckmann", "plain", "none", "separable", "importance"),
             choice_of("ggx", "bounded", "conductor", "correlated", "radiance", "turquin"),
@@ -80,8 +83,11 @@ std::vector<Choice> some_choices() {
 
 std::vector<Choice> all_choices() {
     std::vector<Choice> all;
-    for (const auto& [ndf, sampling] :
-         {std::pair{"ggx", "plain"}, {"ggx", "bounded"}, {"ggx", "conic"}, {"beckmann", "plain"}})
+    for (const auto& [ndf, sampling] : {std::pair{"ggx", "plain"},
+                                        {"ggx", "bounded"},
+                                        {"ggx", "conic"},
+                                        {"ggx", "tilted"},
+                                        {"beckmann", "plain"}})
         for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
             for (const char* masking : {"correlated", "separable"})
                 for (const char* energy : {"none", "turquin", "kulla_conty"})
@@ -427,8 +433,9 @@ Findings check_weights(const Choice& choice, const BsdfProgram& program, std::si
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double pdf = values[3][i];
         if (!(pdf > 0)) continue;
+        // Lost: on the side that its lobe does not light, or where the sampler keeps nothing.
         if (samples[6][i] == 0 &&
-            rows[i].material.transmission > 0) {  // lost: on the side that its lobe does not light
+            (rows[i].material.transmission > 0 || choice.model.sampling == MaterialModel::Sampling::tilted)) {
             for (int c = 3; c < 6; ++c) weight.add(samples[c][i] / eps, rows[i]);
             continue;
         }
@@ -553,6 +560,7 @@ struct Lobe {
     double alpha_x, alpha_y, cosine, phi, metal, ior = 1, transmission = 0, diffuse_roughness = 0, coat = 0,
                                                  coat_alpha = .3, specular = 1, specular_colour = 1;
     bool thin_walled = false;
+    double lean = 0;  // the angle of the geometric normal, away from wo
 };
 const std::vector<Lobe>& lobes() {
     static const std::vector<Lobe> all{
@@ -588,7 +596,13 @@ const std::vector<Lobe>& lobes() {
         {.3, .3, -.4, 1, 0, 1.5, 1, 0, 0, .3, .6, .2},
         {.4, .4, .6, -1, .2, 1.5, .5, 0, 0, .3, .7, 8},
         {.3, .3, .5, .7, 0, 1.5, 1, 0, 0, .3, 1, 1, true},
-        {.5, .25, -.4, 1, .2, 1.5, .7, 0, .6, .3, .8, 2, true}};
+        {.5, .25, -.4, 1, .2, 1.5, .7, 0, .6, .3, .8, 2, true},
+        // Under a geometric normal that leans: metal, paint under a coat, glass from outside and from inside, a wall.
+        {.3, .3, .6, .7, 1, 1, 0, 0, 0, .3, 1, 1, false, .5},
+        {.5, .25, .5, 2, .3, 1.5, 0, 0, .6, .2, 1, 1, false, .4},
+        {.4, .4, .7, -1, 0, 1.5, 1, 0, .5, .3, 1, 1, false, .5},
+        {.4, .4, -.7, -1, 0, 1.5, 1, 0, .5, .3, 1, 1, false, .5},
+        {.3, .5, .5, 1, .2, 1.5, .7, 0, 0, .3, 1, 1, true, .5}};
     return all;
 }
 
@@ -609,6 +623,7 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
         row.material.diffuse_roughness = lobe.diffuse_roughness, row.material.coat = lobe.coat,
         row.material.coat_alpha = lobe.coat_alpha, row.material.specular = lobe.specular,
         row.material.specular_colour.fill(lobe.specular_colour), row.material.thin_walled = lobe.thin_walled;
+        row.material.ng = direction(std::cos(lobe.lean), lobe.phi + pi);
         if (choice.model.fresnel == MaterialModel::Fresnel::conductor)
             row.material.first = {1e-3, 1e-3, 1e-3},
             row.material.second = {1e3, 1e3, 1e3};  // all but a mirror
@@ -624,12 +639,14 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
             expected[grid.bin[i]] +=
                 view.density(grid.node[i], losses[i]) * grid.weight[i] * static_cast<double>(samples);
         const double total = std::accumulate(expected.begin(), expected.end(), 0.);
-        // Of light that crosses the surface, reflections below it and refractions above are lost.
-        const bool loses = lobe.transmission > 0 && lobe.metal < 1;
+        // Of light that crosses the surface, reflections below it and refractions above are lost; and where a density knows of the
+        // geometric normal, reflections below that.
+        const bool leans = choice.model.sampling == MaterialModel::Sampling::tilted && lobe.lean != 0,
+                   crosses = lobe.transmission > 0 && lobe.metal < 1, loses = crosses || leans;
         const Columns values = program.eval_pdf(columns(nodes, false));
         double albedo = 0;
         const auto scale = [&](const Vector& wi) {
-            return in_importance(choice, row, loses && wi.z * row.wo.z < 0 ? 3 : 0);
+            return in_importance(choice, row, crosses && wi.z * row.wo.z < 0 ? 3 : 0);
         };
         for (std::size_t i = 0; i < nodes.size(); ++i)
             albedo += values[0][i] * grid.weight[i] * scale(grid.node[i]);
@@ -665,7 +682,8 @@ Findings check_lobes(const Choice& choice, const BsdfProgram& program, const std
         const bool raised = choice.model.energy == MaterialModel::Energy::turquin;
         const double tables = single ? 0 : .03 * (raised ? 1 : lobe.metal);
         const bool glass = raised && lobe.metal == 0 && lobe.transmission == 1 && lobe.specular == 1;
-        if (single || lobe.coat > 0 || (lobe.ior != 1 && !glass))
+        // And what is below the geometric normal stays lost.
+        if (single || lobe.lean != 0 || lobe.coat > 0 || (lobe.ior != 1 && !glass))
             furnace.add(albedo - fitted - tables, row);
         else
             kept.add(std::abs(albedo - 1), row);
@@ -968,7 +986,8 @@ TEST_CASE("every seeded mistake in a material is noticed") {
                                      {.3, .3, .6, .7, 0, 1.5, 1},
                                      {.4, .3, -.6, 1, .2, 1.4, .6},
                                      {.3, .4, .2, 1, .3, 1.4, .5, .5, 1, .1},
-                                     {.3, .3, .5, .7, .1, 1.5, .8, 0, 0, .3, .8, 2, true}};
+                                     {.3, .3, .5, .7, .1, 1.5, .8, 0, 0, .3, .8, 2, true},
+                                     {.4, .4, .6, .7, .5, 1.5, 0, 0, .3, .2, 1, 1, false, .5}};
         // Those checks alone that must notice it, each by the names of what it finds.
         Findings findings;
         const auto check = [&](const std::set<std::string>& names, const auto& found) {

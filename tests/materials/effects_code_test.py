@@ -19,7 +19,7 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 # Words of the values of a choice that has code of its own: their names in functions of the library.
 VALUES = {
     "NDF": {"beckmann": ["vndf_beckmann"], "ggx": ["vndf_ggx"]},
-    "SAMPLING": {"bounded": ["vndf_impl_ggx_bound"], "conic": ["conic2026"], "plain": []},
+    "SAMPLING": {"bounded": ["vndf_impl_ggx_bound"], "conic": ["c.conic"], "tilted": ["c.tilted"], "plain": []},
     "FRESNEL": {"schlick": ["vndf_fresnel_schlick", "b.f90"], "conductor": ["vndf_fresnel_conductor", "b.eta"],
                 "f82": ["vndf_fresnel_f82", "b.f82"], "none": []},
     "ENERGY": {"turquin": ["vndf_impl_turquin"], "kulla_conty": ["vndf_impl_kulla_conty"], "none": []},
@@ -95,7 +95,10 @@ def faults(switches, code):
         for value, words in values.items():
             for word in words:
                 needed = conductor if choice in ("FRESNEL", "ENERGY") else facets
-                if holds(code, word) != bool(needed and switches[choice] == value):
+                chosen = switches[choice]
+                if chosen == "tilted" and not switches.get("SHADING_NORMAL", 1):
+                    chosen = "conic"
+                if holds(code, word) != bool(needed and chosen == value):
                     yield f"{choice}={switches[choice]}: {word} {'stands' if holds(code, word) else 'is missing'}"
 
 

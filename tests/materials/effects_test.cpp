@@ -141,7 +141,8 @@ void compare(const BsdfProgram& all, const std::string& choices, const Off& off,
 
 std::vector<std::string> all_choices() {
     std::vector<std::string> all;
-    for (const char* model : {"ggx SAMPLING=plain", "ggx SAMPLING=bounded", "ggx SAMPLING=conic", "beckmann"})
+    for (const char* model : {"ggx SAMPLING=plain", "ggx SAMPLING=bounded", "ggx SAMPLING=conic",
+                              "ggx SAMPLING=tilted", "beckmann"})
         for (const char* fresnel : {"none", "conductor", "schlick", "f82"})
             for (const char* masking : {"correlated", "separable"})
                 for (const char* energy : {"none", "turquin", "kulla_conty"})

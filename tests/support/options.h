@@ -63,7 +63,7 @@ inline const std::map<std::string, Values>& values() {
         {"--time", {{"0.5", "10"}, {"", "nan", "inf", "0", "-1", "1e309", "5s", " 5"}}},
         {"--target-error", {{"0.1", "1e-3"}, {"", "nan", "inf", "0", "-1", "2", "5x", " 5"}}},
         {"--max-bounces", {{"0", "6", "128"}, {"", "-1", "129", "1.5", "x", "nan"}}},
-        {"--sampler", {{"bounded", "plain", "conic", "ndf", "cosine"}, {"", "vndf", "Plain"}}},
+        {"--sampler", {{"bounded", "plain", "conic", "tilted", "ndf", "cosine"}, {"", "vndf", "Plain"}}},
         {"--ndf", {{"ggx", "beckmann"}, {"", "gtr"}}},
         {"--masking", {{"correlated", "separable"}, {"", "smith"}}},
         {"energy --of", {{"conductor", "glass"}, {"", "wood"}}},
