@@ -115,9 +115,14 @@ std::vector<EffectCost> effect_programs() {
     all.push_back(cost_of("the same, sampling plain", "dielectric,back_facing,sampling=plain"));
     all.push_back(cost_of("the same, energy turquin", "dielectric,back_facing,energy=turquin"));
     for (const EffectChoice& choice : effect_choices())
-        for (std::size_t i = 1; i < choice.values.size(); ++i)
-            all.push_back(cost_of(fmt::format("conductor alone, {} {}", choice.name, choice.values[i]),
-                                  fmt::format("conductor,{}={}", choice.name, choice.values[i])));
+        for (std::size_t i = 1; i < choice.values.size(); ++i) {
+            // Without a geometric normal that is conic.
+            const bool tilted = choice.values[i] == "tilted";
+            all.push_back(cost_of(fmt::format("conductor {}, {} {}", tilted ? "and shading_normal" : "alone",
+                                              choice.name, choice.values[i]),
+                                  fmt::format("conductor,{}{}={}", tilted ? "shading_normal," : "",
+                                              choice.name, choice.values[i])));
+        }
     add_counts(all);
     return all;
 }

@@ -47,7 +47,10 @@ def variants():
     yield "the same, energy turquin", {**glass, "ENERGY": "turquin"}
     for name, values in CHOICES:
         for value in values[1:]:
-            yield f"conductor alone, {name.lower()} {value}", {**small, name: value}
+            if value == "tilted":  # which without a geometric normal is conic
+                yield "conductor and shading_normal, sampling tilted", {**small, "SHADING_NORMAL": 1, name: value}
+            else:
+                yield f"conductor alone, {name.lower()} {value}", {**small, name: value}
 
 
 def code(switches):

@@ -207,6 +207,10 @@ LobeNoise noise(const std::string& name, const conformance::Point& lobe, const C
 
 }  // namespace
 
+bool has_noise(const std::string& sampler) {
+    return sampler == bounded || std::count(std::begin(samplers), std::end(samplers), sampler) > 0;
+}
+
 std::vector<LobeNoise> lobe_noise() {
     const Columns random = random_points(), sobol = sobol_points();
     std::vector<LobeNoise> all;

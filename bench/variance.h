@@ -21,6 +21,9 @@ struct LobeNoise {
     double sobol_rmse = 0, smooth_sobol_rmse = 0;
 };
 
+// Whether the function is one of those samplers.
+bool has_noise(const std::string& sampler);
+
 // Over roughness, anisotropy and angle of incidence; 2^16 random and 2^16 Sobol samples each, in double on the host. The
 // means of one lobe under one light are the same integral.
 std::vector<LobeNoise> lobe_noise();

@@ -23,11 +23,14 @@ InputError unknown(std::string_view word) {
 void choose(Effects& chosen, const std::string& word) {
     const std::size_t equals = word.find('=');
     const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
-    for (const EffectChoice& choice : effect_choices())
-        if (choice.name == name && std::count(choice.values.begin(), choice.values.end(), value)) {
-            chosen.choices[name] = value;
-            return;
-        }
+    for (const EffectChoice& choice : effect_choices()) {
+        if (choice.name != name) continue;
+        if (!std::count(choice.values.begin(), choice.values.end(), value))
+            throw InputError(fmt::format("--effects: unknown '{}'; allowed are {}={}", word, name,
+                                         fmt::join(choice.values, "|")));
+        chosen.choices[name] = value;
+        return;
+    }
     throw unknown(word);
 }
 

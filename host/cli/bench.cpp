@@ -346,9 +346,15 @@ void run_effects(const Bench& options, Common& common) {
     json->commit();
 }
 
-// Only the JSON holds the noise of lobes and the times of builds, which take seconds.
-void add_costly(bench::Surroundings& surroundings, const runtime::Program& beside) {
-    surroundings.lobes = bench::lobe_noise();
+// Only the JSON holds the noise of lobes and the times of builds, which take half a minute; the noise where a sampler is measured
+// that it is known of.
+void add_costly(bench::Surroundings& surroundings, const std::vector<Batch>& batches,
+                const runtime::Program& beside) {
+    const bool noisy = std::any_of(batches.begin(), batches.end(), [](const Batch& batch) {
+        return std::any_of(batch.begin(), batch.end(),
+                           [](const Form& form) { return bench::has_noise(form.function->name); });
+    });
+    if (noisy) surroundings.lobes = bench::lobe_noise();
     surroundings.builds = bench::build_times(beside);
     surroundings.instructions = embedded("bench/results/instructions.json");
 }
@@ -382,7 +388,7 @@ bench::Measurement measure(const Bench& options, const runtime::Device& device,
             surroundings.context.push_back({"kernel_options", options.user.options});
         } else if (all) {
             progress("noise and builds", 0);
-            add_costly(surroundings, session.program());
+            add_costly(surroundings, batches, session.program());
         }
     }
     return measurer.finish(surroundings);
@@ -431,7 +437,7 @@ bench::Measurement measure_by_ranks(const Bench& options, Common& common, const 
         return true;
     };
     team.run(plan);
-    if (all) add_costly(surroundings, bench::Session(device, session_options).program());
+    if (all) add_costly(surroundings, batches, bench::Session(device, session_options).program());
     return bench::merged(parts, surroundings);
 }
 

@@ -102,10 +102,12 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_axis_apart(struct vndf_impl_cap_
 
 // pi times what v sees of the region to the left of the arc of reflections from one to another, unit vectors, counter-clockwise on
 // the circle about l; negative to the right. The region is bounded by the arc and by straight lines from its ends to the origin.
-VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y, VNDF_REAL3 from,
-                                     VNDF_REAL3 to, VNDF_REAL3 l_of, VNDF_REAL one_minus_cos) {
+VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y,
+                                     struct vndf_impl_vector from, struct vndf_impl_vector to,
+                                     struct vndf_impl_vector l_of, VNDF_REAL one_minus_cos) {
     // With -wo in the cap the same arc backwards, about -l.
-    VNDF_REAL kappa = vndf_impl_cap_of(wo.x, wo.y, wo.z, l_of, one_minus_cos).kappa;
+    VNDF_REAL kappa =
+        vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(l_of.x, l_of.y, l_of.z), one_minus_cos).kappa;
     int turned = kappa < VNDF_R(0.0);
     VNDF_REAL ax = turned ? to.x : from.x, ay = turned ? to.y : from.y, az = turned ? to.z : from.z;
     VNDF_REAL bx = turned ? from.x : to.x, by = turned ? from.y : to.y, bz = turned ? from.z : to.z;
@@ -218,7 +220,7 @@ VNDF_FN VNDF_REAL vndf_impl_level_area(VNDF_REAL wo_z, VNDF_REAL alpha_x, VNDF_R
 // cap, which is turned over where it is not.
 struct vndf_impl_rim {
     struct vndf_impl_cap cap;
-    VNDF_REAL3 from, to, axis;
+    struct vndf_impl_vector from, to, axis;
     VNDF_REAL gap;        // 1 - cos of the cap about the axis
     int crosses, turned;  // crosses: there is such an arc
 };
@@ -228,8 +230,10 @@ VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_
     r.turned = kappa < VNDF_R(0.0);
     VNDF_REAL side = r.turned ? VNDF_R(-1.0) : VNDF_R(1.0);
     r.gap = r.turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos;
-    r.axis = VNDF_MAKE3(side * l.x, side * l.y, side * l.z);
-    r.cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, r.axis, r.gap);
+    r.axis.x = side * l.x;
+    r.axis.y = side * l.y;
+    r.axis.z = side * l.z;
+    r.cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(r.axis.x, r.axis.y, r.axis.z), r.gap);
     r.cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * r.cap.wo2);
     // Where it has the height -wo.z: along its azimuth, and to either side.
     VNDF_REAL across2 = VNDF_FMA(r.cap.lx, r.cap.lx, r.cap.ly * r.cap.ly),
@@ -238,8 +242,11 @@ VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_
     VNDF_REAL rest = VNDF_FMA(wo.x, wo.x, VNDF_FMA(wo.y, wo.y, -along * along));
     r.crosses = rest > VNDF_R(0.0) && across2 > VNDF_R(0.0);
     VNDF_REAL off = VNDF_SQRT(r.crosses ? rest : VNDF_R(0.0));
-    r.from = VNDF_MAKE3(VNDF_FMA(along, dx, -off * dy), VNDF_FMA(along, dy, off * dx), -wo.z);
-    r.to = VNDF_MAKE3(VNDF_FMA(along, dx, off * dy), VNDF_FMA(along, dy, -off * dx), -wo.z);
+    r.from.x = VNDF_FMA(along, dx, -off * dy);
+    r.from.y = VNDF_FMA(along, dy, off * dx);
+    r.to.x = VNDF_FMA(along, dx, off * dy);
+    r.to.y = VNDF_FMA(along, dy, -off * dx);
+    r.from.z = r.to.z = -wo.z;
     return r;
 }
 

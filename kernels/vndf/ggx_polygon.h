@@ -17,24 +17,33 @@ struct vndf_impl_outline {
     VNDF_REAL down_x, down_y, up_x, up_y;  // unit vectors, z = 0
 };
 
+// Of numbers, since the vectors of a user's own need not be members of a struct.
+VNDF_FN struct vndf_impl_vector vndf_impl_numbers(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+    struct vndf_impl_vector v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
+
 // A unit vector along w; (0, 0, 0) where there is none.
-VNDF_FN VNDF_REAL3 vndf_impl_vertex(VNDF_REAL3 w, VNDF_REAL before) {
+VNDF_FN struct vndf_impl_vector vndf_impl_vertex(VNDF_REAL3 w, VNDF_REAL before) {
     VNDF_REAL size = vndf_impl_max(vndf_impl_max(vndf_impl_abs(w.x), vndf_impl_abs(w.y)), vndf_impl_abs(w.z));
     // Made dependent on the one before, so that they are not packed (impl/stretch.h).
     VNDF_REAL scale = vndf_impl_scale(size > VNDF_R(0.0) && before <= VNDF_REAL_MAX ? size : VNDF_R(1.0));
     VNDF_REAL x = w.x * scale, y = w.y * scale, z = w.z * scale, l2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
     VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(l2 > VNDF_R(0.0) ? l2 : VNDF_R(1.0)));
-    return VNDF_MAKE3(x * rcp, y * rcp, z * rcp);
+    return vndf_impl_numbers(x * rcp, y * rcp, z * rcp);
 }
 
 // An arc of a great circle: its ends, and the pole that it turns about, of any length.
 struct vndf_impl_arc {
-    VNDF_REAL3 from, to, pole;
+    struct vndf_impl_vector from, to, pole;
 };
 
 // With one edge more, of unit vectors.
-VNDF_FN struct vndf_impl_outline vndf_impl_outline_with(struct vndf_impl_outline o, VNDF_REAL3 a,
-                                                        VNDF_REAL3 b) {
+VNDF_FN struct vndf_impl_outline vndf_impl_outline_with(struct vndf_impl_outline o, struct vndf_impl_vector a,
+                                                        struct vndf_impl_vector b) {
     int down = a.z > VNDF_R(0.0) && b.z <= VNDF_R(0.0), up = a.z <= VNDF_R(0.0) && b.z > VNDF_R(0.0);
     // Where it crosses the horizon: b.z a - a.z b, in the direction of the edge.
     VNDF_REAL x = vndf_impl_difference_of_products(b.z, a.x, a.z, b.x),
@@ -51,13 +60,13 @@ VNDF_FN struct vndf_impl_outline vndf_impl_outline_with(struct vndf_impl_outline
 }
 
 // The part of that edge that is above the horizon.
-VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, VNDF_REAL3 a, VNDF_REAL3 b) {
+VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, struct vndf_impl_vector a,
+                                                    struct vndf_impl_vector b) {
     struct vndf_impl_arc arc;
     int down = b.z <= VNDF_R(0.0), up = a.z <= VNDF_R(0.0);
-    struct vndf_impl_vector k = vndf_impl_cross(a, b);
-    arc.from = VNDF_MAKE3(up ? o.up_x : a.x, up ? o.up_y : a.y, up ? VNDF_R(0.0) : a.z);
-    arc.to = VNDF_MAKE3(down ? o.down_x : b.x, down ? o.down_y : b.y, down ? VNDF_R(0.0) : b.z);
-    arc.pole = VNDF_MAKE3(k.x, k.y, k.z);
+    arc.pole = vndf_impl_cross(VNDF_MAKE3(a.x, a.y, a.z), VNDF_MAKE3(b.x, b.y, b.z));
+    arc.from = vndf_impl_numbers(up ? o.up_x : a.x, up ? o.up_y : a.y, up ? VNDF_R(0.0) : a.z);
+    arc.to = vndf_impl_numbers(down ? o.down_x : b.x, down ? o.down_y : b.y, down ? VNDF_R(0.0) : b.z);
     return arc;
 }
 
@@ -65,31 +74,32 @@ VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, 
 VNDF_FN struct vndf_impl_arc vndf_impl_outline_level(struct vndf_impl_outline o) {
     struct vndf_impl_arc arc;
     VNDF_REAL side = vndf_impl_difference_of_products(o.down_x, o.up_y, o.down_y, o.up_x);
-    arc.from = VNDF_MAKE3(o.down_x, o.down_y, VNDF_R(0.0));
-    arc.to = VNDF_MAKE3(o.up_x, o.up_y, VNDF_R(0.0));
-    arc.pole = VNDF_MAKE3(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0));
+    arc.from = vndf_impl_numbers(o.down_x, o.down_y, VNDF_R(0.0));
+    arc.to = vndf_impl_numbers(o.up_x, o.up_y, VNDF_R(0.0));
+    arc.pole = vndf_impl_numbers(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0));
     return arc;
 }
 
 // Of a polygon whose vertices, unit vectors, are a, b, c and d, with three edges d = a: an arc for each edge and one of the horizon,
 // in a loop, since the code of an arc is long. Between 0 and what is above the horizon at all.
 VNDF_FN VNDF_REAL vndf_impl_polygon_mass(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_REAL alpha_x,
-                                         VNDF_REAL alpha_y, VNDF_REAL3 a, VNDF_REAL3 b, VNDF_REAL3 c,
-                                         VNDF_REAL3 d, int edges) {
+                                         VNDF_REAL alpha_y, struct vndf_impl_vector a,
+                                         struct vndf_impl_vector b, struct vndf_impl_vector c,
+                                         struct vndf_impl_vector d, int edges) {
     struct vndf_impl_outline o;
     o.down_x = o.down_y = o.up_x = o.up_y = VNDF_R(0.0);
     VNDF_REAL sum = wo.z * VNDF_R(0.0);
-    VNDF_REAL3 first = a;
+    struct vndf_impl_vector first = a;
     for (int k = 0; k <= edges; ++k) {
         int last = k == edges, seen = a.z > VNDF_R(0.0) || b.z > VNDF_R(0.0);
         o = vndf_impl_outline_with(o, a, b);
         struct vndf_impl_arc edge = vndf_impl_outline_edge(o, a, b), level = vndf_impl_outline_level(o);
-        edge.from = VNDF_MAKE3(last ? level.from.x : edge.from.x, last ? level.from.y : edge.from.y,
-                               last ? level.from.z : edge.from.z);
-        edge.to = VNDF_MAKE3(last ? level.to.x : edge.to.x, last ? level.to.y : edge.to.y,
-                             last ? level.to.z : edge.to.z);
-        edge.pole = VNDF_MAKE3(last ? level.pole.x : edge.pole.x, last ? level.pole.y : edge.pole.y,
-                               last ? level.pole.z : edge.pole.z);
+        edge.from = vndf_impl_numbers(last ? level.from.x : edge.from.x, last ? level.from.y : edge.from.y,
+                                      last ? level.from.z : edge.from.z);
+        edge.to = vndf_impl_numbers(last ? level.to.x : edge.to.x, last ? level.to.y : edge.to.y,
+                                    last ? level.to.z : edge.to.z);
+        edge.pole = vndf_impl_numbers(last ? level.pole.x : edge.pole.x, last ? level.pole.y : edge.pole.y,
+                                      last ? level.pole.z : edge.pole.z);
         int crosses = vndf_impl_abs(o.down_x) + vndf_impl_max(o.down_y, -o.down_y) > VNDF_R(0.0);
         VNDF_REAL area = vndf_impl_arc_area(wo, alpha_x, alpha_y, edge.from, edge.to, edge.pole, VNDF_R(1.0));
         sum += (last ? crosses : seen) ? area : VNDF_R(0.0);
@@ -118,10 +128,9 @@ VNDF_FN VNDF_REAL vndf_ggx_triangle_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
     VNDF_REAL none =
         vndf_impl_zero(a.x, a.y, a.z) + vndf_impl_zero(b.x, b.y, b.z) + vndf_impl_zero(c.x, c.y, c.z);
-    a = vndf_impl_vertex(a, VNDF_R(0.0));
-    b = vndf_impl_vertex(b, a.x);
-    c = vndf_impl_vertex(c, b.x);
-    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, a, b, c, a, 3) +
+    struct vndf_impl_vector p = vndf_impl_vertex(a, VNDF_R(0.0));
+    struct vndf_impl_vector q = vndf_impl_vertex(b, p.x), r = vndf_impl_vertex(c, q.x);
+    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, p, q, r, p, 3) +
            vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 
@@ -135,11 +144,10 @@ VNDF_FN VNDF_REAL vndf_ggx_quad_mass(VNDF_REAL3 wo, VNDF_REAL3 a, VNDF_REAL3 b, 
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
     VNDF_REAL none = vndf_impl_zero(a.x, a.y, a.z) + vndf_impl_zero(b.x, b.y, b.z) +
                      vndf_impl_zero(c.x, c.y, c.z) + vndf_impl_zero(d.x, d.y, d.z);
-    a = vndf_impl_vertex(a, VNDF_R(0.0));
-    b = vndf_impl_vertex(b, a.x);
-    c = vndf_impl_vertex(c, b.x);
-    d = vndf_impl_vertex(d, c.x);
-    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, a, b, c, d, 4) +
+    struct vndf_impl_vector p = vndf_impl_vertex(a, VNDF_R(0.0));
+    struct vndf_impl_vector q = vndf_impl_vertex(b, p.x), r = vndf_impl_vertex(c, q.x);
+    struct vndf_impl_vector s = vndf_impl_vertex(d, r.x);
+    return vndf_impl_polygon_mass(wo, alpha, alpha_x, alpha_y, p, q, r, s, 4) +
            vndf_impl_zero(wo.x, wo.y, wo.z) + none;
 }
 

@@ -227,15 +227,16 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma_tilted(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL2
     VNDF_REAL arc = VNDF_R(0.0), sum = VNDF_R(0.0);
     for (int k = 0; k < 2; ++k) {
         int of_z = front && k == 0, of_ng = front && k != 0;
-        VNDF_REAL3 from =
-            VNDF_MAKE3(of_z ? right.x : (of_ng ? left.x : rim.from.x),
-                       of_z ? right.y : (of_ng ? left.y : rim.from.y), front ? VNDF_R(0.0) : rim.from.z);
-        VNDF_REAL3 to =
-            VNDF_MAKE3(of_z ? left.x : (of_ng ? right.x : rim.to.x),
-                       of_z ? left.y : (of_ng ? right.y : rim.to.y), front ? VNDF_R(0.0) : rim.to.z);
-        VNDF_REAL3 axis = VNDF_MAKE3(of_z ? VNDF_R(0.0) : (of_ng ? ng.x : rim.axis.x),
-                                     of_z ? VNDF_R(0.0) : (of_ng ? ng.y : rim.axis.y),
-                                     of_z ? VNDF_R(1.0) : (of_ng ? ng.z : rim.axis.z));
+        struct vndf_impl_vector from, to, axis;
+        from.x = of_z ? right.x : (of_ng ? left.x : rim.from.x);
+        from.y = of_z ? right.y : (of_ng ? left.y : rim.from.y);
+        from.z = front ? VNDF_R(0.0) : rim.from.z;
+        to.x = of_z ? left.x : (of_ng ? right.x : rim.to.x);
+        to.y = of_z ? left.y : (of_ng ? right.y : rim.to.y);
+        to.z = front ? VNDF_R(0.0) : rim.to.z;
+        axis.x = of_z ? VNDF_R(0.0) : (of_ng ? ng.x : rim.axis.x);
+        axis.y = of_z ? VNDF_R(0.0) : (of_ng ? ng.y : rim.axis.y);
+        axis.z = of_z ? VNDF_R(1.0) : (of_ng ? ng.z : rim.axis.z);
         arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, from, to, axis, front ? VNDF_R(1.0) : rim.gap);
         sum += arc;
     }

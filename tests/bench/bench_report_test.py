@@ -108,14 +108,14 @@ def check_report():
 
 
 def check_command(clvndf):
-    run = subprocess.run([clvndf, "--quiet", "bench", "--only", "jacobian_reflect/strict/float", "--repetitions", "3",
+    run = subprocess.run([clvndf, "--quiet", "bench", "--only", "sample_wi_eto2023/strict/float", "--repetitions", "3",
                           "--json", "-"], check=True, stdout=subprocess.PIPE)
     data = json.loads(run.stdout)
     jsonschema.validate(data, schema)
     check_lobes(data)
     names = {b["run_name"] for b in data["benchmarks"]}
     for mode in ("stream", "compute", "cached"):
-        assert f"vndf_jacobian_reflect/strict/float/{mode}" in names, names
+        assert f"vndf_ggx_sample_wi_eto2023/strict/float/{mode}" in names, names
 
 
 def check_committed():

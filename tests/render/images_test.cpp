@@ -104,7 +104,7 @@ double fresnel(double cosine, double eta) {
 
 TEST_CASE("smooth glass in a white furnace is Fresnel's, and a ball of it is not to be seen") {
     const double theta = 1.1, eta = 1.5, f = fresnel(std::cos(theta), eta);
-    for (const std::string sampler : {"plain", "bounded", "conic", "tilted"}) {
+    for (const std::string sampler : {"plain", "bounded", "conic"}) {
         CAPTURE(sampler);
         Rendered r = rendered(floor_of(render::glass(1.5f, 1e-3f), theta), 16, 16, 64 * effort());
         r.choices.sampler = sampler;
@@ -396,9 +396,6 @@ Mean mean_of(Rendered r, const std::string& ndf, const std::string& sampler, int
     const double average = sum / seeds;
     return {average, std::sqrt(std::max(0.0, square / seeds - average * average) / (seeds - 1))};
 }
-bool for_ggx_alone(const std::string& sampler) {
-    return sampler == "bounded" || sampler == "conic" || sampler == "tilted";
-}
 
 }  // namespace
 
@@ -407,12 +404,12 @@ TEST_CASE("every sampler draws the same image") {
     for (const std::string ndf : {"ggx", "beckmann"}) {
         const Rendered r = rendered(floor_of(mirror(0.3f, 0.6f), 0.9), 24, 24, 16 * effort());
         const Mean first = mean_of(r, ndf, "plain", seeds);
-        for (const std::string sampler : {"bounded", "conic", "tilted", "ndf", "cosine"}) {
-            if (ndf == "beckmann" && for_ggx_alone(sampler)) continue;
+        for (const std::string sampler : {"bounded", "conic", "ndf", "cosine"}) {
+            if (ndf == "beckmann" && (sampler == "bounded" || sampler == "conic")) continue;
             CAPTURE(ndf, sampler);
             const Mean other = mean_of(r, ndf, sampler, seeds);
-            // Student's t with 14 degrees of freedom: 1e-6 for six comparisons.
-            CHECK(std::abs(other.value - first.value) < 8.7 * std::hypot(other.error, first.error));
+            // Student's t with 14 degrees of freedom: 1e-6 for five comparisons.
+            CHECK(std::abs(other.value - first.value) < 8.5 * std::hypot(other.error, first.error));
             // And the comparison is a sharp one.
             CHECK(other.error < 0.02 * other.value);
         }
