@@ -346,16 +346,18 @@ void run_effects(const Bench& options, Common& common) {
     json->commit();
 }
 
-// Only the JSON holds the noise of lobes and the times of builds, which take half a minute; the noise where a sampler is measured
-// that it is known of.
+// Only the JSON holds the noise of lobes and the times of builds, which are of samplers and take a minute: where one is measured
+// whose noise is known.
 void add_costly(bench::Surroundings& surroundings, const std::vector<Batch>& batches,
                 const runtime::Program& beside) {
     const bool noisy = std::any_of(batches.begin(), batches.end(), [](const Batch& batch) {
         return std::any_of(batch.begin(), batch.end(),
                            [](const Form& form) { return bench::has_noise(form.function->name); });
     });
-    if (noisy) surroundings.lobes = bench::lobe_noise();
-    surroundings.builds = bench::build_times(beside);
+    if (noisy) {
+        surroundings.lobes = bench::lobe_noise();
+        surroundings.builds = bench::build_times(beside);
+    }
     surroundings.instructions = embedded("bench/results/instructions.json");
 }
 
