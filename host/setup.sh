@@ -54,7 +54,7 @@ esac
 
 # rusticl's kernel library is that of the LLVM that Mesa was built with; Debian 13 has no Oclgrind.
 if [ -n "$devices" ]; then
-    packages="$packages clang mesa-opencl-icd python3-pyopencl python3-venv dpkg-dev file qemu-user libopenmpi-dev openmpi-bin"
+    packages="$packages clang mesa-opencl-icd python3-pyopencl python3-venv dpkg-dev file qemu-user debootstrap libopenmpi-dev openmpi-bin"
     packages="$packages g++-aarch64-linux-gnu g++-riscv64-linux-gnu g++-s390x-linux-gnu g++-powerpc64le-linux-gnu"
     packages="$packages g++-arm-linux-gnueabihf g++-i686-linux-gnu"
     [ "$system" = "debian 12" ] && packages="$packages libclc-15 oclgrind" || packages="$packages libclc-19"

@@ -413,6 +413,7 @@ TABLES = {
     "power": lambda build: power(),
     "tilts": lambda build: table(["tilt", "αx, αy", "view at 30°", "60°", "80°"],
                                  [line.split(" | ") for line in TILTS.read_text("utf-8").splitlines()]),
+    "everywhere": lambda build: (ROOT / "tests/data/everywhere.md").read_text("utf-8"),
     "refraction": lambda build: table(["alpha", "angle", "reflected in full", "white: after, before, cone",
                                        "smooth: after, before, cone"], refraction()),
     "cap_times": lambda build: cap_times(),

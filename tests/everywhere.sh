@@ -5,8 +5,9 @@
 #   everywhere.sh [--quick] PROJECT BUILD WORK [KIND...]
 #
 # PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is compiled and installed here. --quick: 2^12
-# inputs a function everywhere, and two compilers. KIND: devices, oclgrind, rusticl, intel, compilers, languages, processors;
-# default: all. What is missing is skipped with a word; sh host/setup.sh --devices installs most.
+# inputs a function everywhere, and two compilers. KIND: devices, debian (PoCL of later releases, each in a root of its own, as
+# root, with debootstrap), oclgrind, rusticl, intel, compilers, languages, processors; default: all. What is missing is skipped with a
+# word; sh host/setup.sh --devices installs most.
 # Exit status: 0 the same bits, 1 not, 2 wrong arguments or nothing built, 77 the same as far as could be tried.
 set -u
 
@@ -20,7 +21,7 @@ quick= digests=digests.txt
 [ $# -ge 3 ] || cannot "usage: everywhere.sh [--quick] PROJECT BUILD WORK [KIND...]"
 project=$1 build=$2 work=$3
 shift 3
-[ $# -gt 0 ] || set -- devices oclgrind rusticl intel compilers languages processors
+[ $# -gt 0 ] || set -- devices debian oclgrind rusticl intel compilers languages processors
 clvndf=$build/clvndf tests=$project/tests
 [ -f "$tests/data/$digests" ] || cannot "no $tests/data/$digests: $project is not the source folder"
 [ -x "$clvndf" ] || cannot "no $clvndf: build it first (cmake --build $build --target clvndf)"
@@ -67,6 +68,31 @@ devices() {
         version=$("$clvndf" devices | grep -A2 -xF "$device" | sed -n 's/^  driver version *//p' | head -1)
         judge "$device, $version" $inputs "$clvndf" --quiet check --digest $quick --device "${device##* / }"
     done <"$work/devices"
+}
+
+# The command is built in there, against the packages of that release.
+debian() {
+    for release in trixie sid; do
+        root=$work/$release name="PoCL of Debian $release"
+        if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
+            skipped "$name" "no debootstrap, or not root"
+            continue
+        fi
+        { [ -d "$root/var/lib/apt/lists" ] || debootstrap --variant=minbase "$release" "$root"; } >"$work/log" 2>&1 &&
+            rm -rf "$root/clvndf" && mkdir "$root/clvndf" &&
+            (cd "$project" && tar -c --exclude=./build --exclude=./.git .) | tar -x -C "$root/clvndf" &&
+            inside "$root" 'apt-get -qq update
+                DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install $(sh host/setup.sh --list) &&
+                    cmake --preset release && cmake --build --preset release --target clvndf' >>"$work/log" 2>&1 ||
+            { skipped "$name" "could not be built there: $(tail -1 "$work/log")" && continue; }
+        version=$(inside "$root" 'build/release/clvndf devices' | sed -n 's/^  driver version *//p' | head -1)
+        judge "$name, $version" $inputs inside "$root" "build/release/clvndf --quiet check --digest $quick"
+    done
+}
+# inside ROOT COMMANDS: with its own mounts, which end with it.
+inside() {
+    unshare --mount sh -c 'mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" &&
+        exec chroot "$0" env HOME=/root OCL_ICD_VENDORS=/etc/OpenCL/vendors sh -c "cd /clvndf && $1"' "$1" "$2"
 }
 
 oclgrind() {
@@ -135,8 +161,8 @@ echo "| implementation | digests |"
 echo "| --- | --- |"
 for kind in "$@"; do
     case $kind in
-    devices | oclgrind | rusticl | intel | compilers | languages | processors) $kind ;;
-    *) cannot "unknown kind '$kind': devices, oclgrind, rusticl, intel, compilers, languages, processors" ;;
+    devices | debian | oclgrind | rusticl | intel | compilers | languages | processors) $kind ;;
+    *) cannot "unknown kind '$kind': devices, debian, oclgrind, rusticl, intel, compilers, languages, processors" ;;
     esac
 done
 exit $status

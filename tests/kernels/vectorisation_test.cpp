@@ -158,6 +158,8 @@ TEST_CASE("materials are vectorised across work-items on PoCL") {
                              "all,fresnel=conductor,masking=separable",
                              "all,sampling=conic,fresnel=f82",
                              "all,ndf=beckmann,fresnel=conductor",
+                             "all,sampling=tilted",
+                             "conductor,shading_normal,sampling=tilted",
                              "all,energy=turquin",
                              "all,energy=kulla_conty,fresnel=conductor",
                              "all,energy=kulla_conty,sampling=conic",
