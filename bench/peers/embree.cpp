@@ -14,6 +14,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/peers/embree_tracer.h"
 

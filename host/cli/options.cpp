@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include "cli/options.h"
 
 #include "conformance/runs/check.h"

@@ -1,6 +1,7 @@
 #include "conformance/report/page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

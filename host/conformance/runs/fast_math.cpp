@@ -1,6 +1,7 @@
 #include "conformance/runs/fast_math.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <bit>
 #include <chrono>

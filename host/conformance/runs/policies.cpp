@@ -1,6 +1,7 @@
 #include "conformance/runs/policies.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <bit>
 #include <chrono>

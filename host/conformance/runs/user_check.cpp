@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "conformance/judge/bsdf.h"
 #include "conformance/judge/mistakes.h"
