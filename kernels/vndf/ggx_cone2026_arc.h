@@ -100,11 +100,23 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_axis_apart(struct vndf_impl_cap_
     return k;
 }
 
-// pi times what v sees of the region to the left of the arc of reflections from one to another, unit vectors, counter-clockwise on
-// the circle about l; negative to the right. The region is bounded by the arc and by straight lines from its ends to the origin.
+// An arc of reflections: from one to another, unit vectors, counter-clockwise about l, of any length.
+struct vndf_impl_arc {
+    struct vndf_impl_vector from, to, l;
+};
+VNDF_FN struct vndf_impl_arc vndf_impl_arc_choice(int other, struct vndf_impl_arc a, struct vndf_impl_arc b) {
+    a.from = vndf_impl_vector_of(other ? b.from.x : a.from.x, other ? b.from.y : a.from.y,
+                                 other ? b.from.z : a.from.z);
+    a.to = vndf_impl_vector_of(other ? b.to.x : a.to.x, other ? b.to.y : a.to.y, other ? b.to.z : a.to.z);
+    a.l = vndf_impl_vector_of(other ? b.l.x : a.l.x, other ? b.l.y : a.l.y, other ? b.l.z : a.l.z);
+    return a;
+}
+
+// pi times what v sees of the region to the left of an arc of a circle about l; negative to the right. The region is bounded by the
+// arc and by straight lines from its ends to the origin.
 VNDF_FN VNDF_REAL vndf_impl_arc_area(VNDF_REAL3 wo, VNDF_REAL alpha_x, VNDF_REAL alpha_y,
-                                     struct vndf_impl_vector from, struct vndf_impl_vector to,
-                                     struct vndf_impl_vector l_of, VNDF_REAL one_minus_cos) {
+                                     struct vndf_impl_arc arc, VNDF_REAL one_minus_cos) {
+    struct vndf_impl_vector from = arc.from, to = arc.to, l_of = arc.l;
     // With -wo in the cap the same arc backwards, about -l.
     VNDF_REAL kappa =
         vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(l_of.x, l_of.y, l_of.z), one_minus_cos).kappa;
@@ -220,8 +232,8 @@ VNDF_FN VNDF_REAL vndf_impl_level_area(VNDF_REAL wo_z, VNDF_REAL alpha_x, VNDF_R
 // cap, which is turned over where it is not.
 struct vndf_impl_rim {
     struct vndf_impl_cap cap;
-    struct vndf_impl_vector from, to, axis;
-    VNDF_REAL gap;        // 1 - cos of the cap about the axis
+    struct vndf_impl_arc arc;
+    VNDF_REAL gap;        // 1 - cos of the cap about the arc's l
     int crosses, turned;  // crosses: there is such an arc
 };
 VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_minus_cos) {
@@ -230,10 +242,8 @@ VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_
     r.turned = kappa < VNDF_R(0.0);
     VNDF_REAL side = r.turned ? VNDF_R(-1.0) : VNDF_R(1.0);
     r.gap = r.turned ? VNDF_R(2.0) - one_minus_cos : one_minus_cos;
-    r.axis.x = side * l.x;
-    r.axis.y = side * l.y;
-    r.axis.z = side * l.z;
-    r.cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(r.axis.x, r.axis.y, r.axis.z), r.gap);
+    r.arc.l = vndf_impl_vector_of(side * l.x, side * l.y, side * l.z);
+    r.cap = vndf_impl_cap_of(wo.x, wo.y, wo.z, VNDF_MAKE3(r.arc.l.x, r.arc.l.y, r.arc.l.z), r.gap);
     r.cap.kappa = vndf_impl_max(vndf_impl_abs(kappa), VNDF_EPSILON * VNDF_EPSILON * r.cap.wo2);
     // Where it has the height -wo.z: along its azimuth, and to either side.
     VNDF_REAL across2 = VNDF_FMA(r.cap.lx, r.cap.lx, r.cap.ly * r.cap.ly),
@@ -242,25 +252,25 @@ VNDF_FN struct vndf_impl_rim vndf_impl_rim_of(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_
     VNDF_REAL rest = VNDF_FMA(wo.x, wo.x, VNDF_FMA(wo.y, wo.y, -along * along));
     r.crosses = rest > VNDF_R(0.0) && across2 > VNDF_R(0.0);
     VNDF_REAL off = VNDF_SQRT(r.crosses ? rest : VNDF_R(0.0));
-    r.from.x = VNDF_FMA(along, dx, -off * dy);
-    r.from.y = VNDF_FMA(along, dy, off * dx);
-    r.to.x = VNDF_FMA(along, dx, off * dy);
-    r.to.y = VNDF_FMA(along, dy, -off * dx);
-    r.from.z = r.to.z = -wo.z;
+    r.arc.from.x = VNDF_FMA(along, dx, -off * dy);
+    r.arc.from.y = VNDF_FMA(along, dy, off * dx);
+    r.arc.to.x = VNDF_FMA(along, dx, off * dy);
+    r.arc.to.y = VNDF_FMA(along, dy, -off * dx);
+    r.arc.from.z = r.arc.to.z = -wo.z;
     return r;
 }
 
-// What v sees of the normals above the surface that reflect wo into the cap. arc: vndf_impl_arc_area of that part of the rim.
+// What v sees of the normals above the surface that reflect wo into the cap. area: vndf_impl_arc_area of that part of the rim.
 VNDF_FN VNDF_REAL vndf_impl_rim_mass(struct vndf_impl_rim r, VNDF_REAL3 wo, VNDF_REAL alpha_x,
-                                     VNDF_REAL alpha_y, VNDF_REAL arc) {
-    VNDF_REAL level = vndf_impl_level_area(wo.z, alpha_x, alpha_y, wo.x + r.to.x, wo.y + r.to.y,
-                                           wo.x + r.from.x, wo.y + r.from.y);
+                                     VNDF_REAL alpha_y, VNDF_REAL area) {
+    VNDF_REAL level = vndf_impl_level_area(wo.z, alpha_x, alpha_y, wo.x + r.arc.to.x, wo.y + r.arc.to.y,
+                                           wo.x + r.arc.from.x, wo.y + r.arc.from.y);
     struct vndf_impl_cap_cone c = vndf_impl_cap_axis_apart(
         vndf_impl_cap_cone_of(r.cap, wo.x, wo.y, wo.z, alpha_x, alpha_y), r.cap, wo, alpha_x, alpha_y);
     // On one side of that height altogether.
     VNDF_REAL height = VNDF_FMA(r.cap.lz, r.cap.cosine, wo.z * r.cap.wo2);
     VNDF_REAL whole = height > VNDF_R(0.0) && c.inside ? vndf_impl_cap_sigma(r.cap, c, r.gap) : VNDF_R(0.0);
-    VNDF_REAL mass = r.crosses ? VNDF_1_PI * (arc + level) : whole;
+    VNDF_REAL mass = r.crosses ? VNDF_1_PI * (area + level) : whole;
     VNDF_REAL all = VNDF_R(0.5) * vndf_impl_ggx_twice_sigma(wo.x, wo.y, wo.z, alpha_x, alpha_y);
     mass = r.turned ? all - mass : mass;
     return vndf_impl_min(vndf_impl_max(mass, VNDF_R(0.0)), all);

@@ -17,15 +17,6 @@ struct vndf_impl_outline {
     VNDF_REAL down_x, down_y, up_x, up_y;  // unit vectors, z = 0
 };
 
-// Of numbers, since the vectors of a user's own need not be members of a struct.
-VNDF_FN struct vndf_impl_vector vndf_impl_numbers(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
-    struct vndf_impl_vector v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
-    return v;
-}
-
 // A unit vector along w; (0, 0, 0) where there is none.
 VNDF_FN struct vndf_impl_vector vndf_impl_vertex(VNDF_REAL3 w, VNDF_REAL before) {
     VNDF_REAL size = vndf_impl_max(vndf_impl_max(vndf_impl_abs(w.x), vndf_impl_abs(w.y)), vndf_impl_abs(w.z));
@@ -33,13 +24,8 @@ VNDF_FN struct vndf_impl_vector vndf_impl_vertex(VNDF_REAL3 w, VNDF_REAL before)
     VNDF_REAL scale = vndf_impl_scale(size > VNDF_R(0.0) && before <= VNDF_REAL_MAX ? size : VNDF_R(1.0));
     VNDF_REAL x = w.x * scale, y = w.y * scale, z = w.z * scale, l2 = VNDF_FMA(x, x, VNDF_FMA(y, y, z * z));
     VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(l2 > VNDF_R(0.0) ? l2 : VNDF_R(1.0)));
-    return vndf_impl_numbers(x * rcp, y * rcp, z * rcp);
+    return vndf_impl_vector_of(x * rcp, y * rcp, z * rcp);
 }
-
-// An arc of a great circle: its ends, and the pole that it turns about, of any length.
-struct vndf_impl_arc {
-    struct vndf_impl_vector from, to, pole;
-};
 
 // With one edge more, of unit vectors.
 VNDF_FN struct vndf_impl_outline vndf_impl_outline_with(struct vndf_impl_outline o, struct vndf_impl_vector a,
@@ -64,9 +50,9 @@ VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, 
                                                     struct vndf_impl_vector b) {
     struct vndf_impl_arc arc;
     int down = b.z <= VNDF_R(0.0), up = a.z <= VNDF_R(0.0);
-    arc.pole = vndf_impl_cross(VNDF_MAKE3(a.x, a.y, a.z), VNDF_MAKE3(b.x, b.y, b.z));
-    arc.from = vndf_impl_numbers(up ? o.up_x : a.x, up ? o.up_y : a.y, up ? VNDF_R(0.0) : a.z);
-    arc.to = vndf_impl_numbers(down ? o.down_x : b.x, down ? o.down_y : b.y, down ? VNDF_R(0.0) : b.z);
+    arc.l = vndf_impl_cross(VNDF_MAKE3(a.x, a.y, a.z), VNDF_MAKE3(b.x, b.y, b.z));
+    arc.from = vndf_impl_vector_of(up ? o.up_x : a.x, up ? o.up_y : a.y, up ? VNDF_R(0.0) : a.z);
+    arc.to = vndf_impl_vector_of(down ? o.down_x : b.x, down ? o.down_y : b.y, down ? VNDF_R(0.0) : b.z);
     return arc;
 }
 
@@ -74,9 +60,9 @@ VNDF_FN struct vndf_impl_arc vndf_impl_outline_edge(struct vndf_impl_outline o, 
 VNDF_FN struct vndf_impl_arc vndf_impl_outline_level(struct vndf_impl_outline o) {
     struct vndf_impl_arc arc;
     VNDF_REAL side = vndf_impl_difference_of_products(o.down_x, o.up_y, o.down_y, o.up_x);
-    arc.from = vndf_impl_numbers(o.down_x, o.down_y, VNDF_R(0.0));
-    arc.to = vndf_impl_numbers(o.up_x, o.up_y, VNDF_R(0.0));
-    arc.pole = vndf_impl_numbers(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0));
+    arc.from = vndf_impl_vector_of(o.down_x, o.down_y, VNDF_R(0.0));
+    arc.to = vndf_impl_vector_of(o.up_x, o.up_y, VNDF_R(0.0));
+    arc.l = vndf_impl_vector_of(VNDF_R(0.0), VNDF_R(0.0), side < VNDF_R(0.0) ? VNDF_R(-1.0) : VNDF_R(1.0));
     return arc;
 }
 
@@ -93,15 +79,10 @@ VNDF_FN VNDF_REAL vndf_impl_polygon_mass(VNDF_REAL3 wo, VNDF_REAL2 alpha, VNDF_R
     for (int k = 0; k <= edges; ++k) {
         int last = k == edges, seen = a.z > VNDF_R(0.0) || b.z > VNDF_R(0.0);
         o = vndf_impl_outline_with(o, a, b);
-        struct vndf_impl_arc edge = vndf_impl_outline_edge(o, a, b), level = vndf_impl_outline_level(o);
-        edge.from = vndf_impl_numbers(last ? level.from.x : edge.from.x, last ? level.from.y : edge.from.y,
-                                      last ? level.from.z : edge.from.z);
-        edge.to = vndf_impl_numbers(last ? level.to.x : edge.to.x, last ? level.to.y : edge.to.y,
-                                    last ? level.to.z : edge.to.z);
-        edge.pole = vndf_impl_numbers(last ? level.pole.x : edge.pole.x, last ? level.pole.y : edge.pole.y,
-                                      last ? level.pole.z : edge.pole.z);
+        struct vndf_impl_arc arc =
+            vndf_impl_arc_choice(last, vndf_impl_outline_edge(o, a, b), vndf_impl_outline_level(o));
         int crosses = vndf_impl_abs(o.down_x) + vndf_impl_max(o.down_y, -o.down_y) > VNDF_R(0.0);
-        VNDF_REAL area = vndf_impl_arc_area(wo, alpha_x, alpha_y, edge.from, edge.to, edge.pole, VNDF_R(1.0));
+        VNDF_REAL area = vndf_impl_arc_area(wo, alpha_x, alpha_y, arc, VNDF_R(1.0));
         sum += (last ? crosses : seen) ? area : VNDF_R(0.0);
         a = b;
         b = c;
@@ -164,8 +145,8 @@ VNDF_FN VNDF_REAL vndf_ggx_cap_mass(VNDF_REAL3 wo, VNDF_REAL3 l, VNDF_REAL one_m
     VNDF_REAL gap = vndf_impl_min(vndf_impl_max(one_minus_cos, VNDF_R(0.0)), VNDF_R(2.0));
     VNDF_REAL alpha_x = vndf_impl_arc_alpha(x, y), alpha_y = vndf_impl_arc_alpha(y, x);
     struct vndf_impl_rim rim = vndf_impl_rim_of(wo, l, gap);
-    VNDF_REAL arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, rim.from, rim.to, rim.axis, rim.gap);
-    VNDF_REAL mass = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, arc);
+    VNDF_REAL area = vndf_impl_arc_area(wo, alpha_x, alpha_y, rim.arc, rim.gap);
+    VNDF_REAL mass = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, area);
     return vndf_impl_finite(mass) + vndf_impl_zero(wo.x, wo.y, wo.z) + vndf_impl_zero(l.x, l.y, l.z);
 }
 

@@ -218,34 +218,27 @@ VNDF_FN VNDF_REAL vndf_ggx_sigma_tilted(VNDF_REAL3 wo, VNDF_REAL3 ng, VNDF_REAL2
               scale = vndf_impl_scale(size > VNDF_R(0.0) ? size : VNDF_R(1.0));
     VNDF_REAL x = ng.x * scale, y = ng.y * scale, length2 = VNDF_FMA(x, x, y * y),
               rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(length2 > VNDF_R(0.0) ? length2 : VNDF_R(1.0)));
-    // The corners, where both horizons meet.
-    VNDF_REAL3 left = VNDF_MAKE3(-y * rcp, x * rcp, VNDF_R(0.0)),
-               right = VNDF_MAKE3(y * rcp, -x * rcp, VNDF_R(0.0));
-    // From behind every visible normal reflects above z, and ng is a cap alone.
+    // Between the corners, where both horizons meet. From behind every visible normal reflects above z, and ng is a cap alone.
+    struct vndf_impl_arc of_z, of_ng;
+    of_z.from = of_ng.to = vndf_impl_vector_of(y * rcp, -x * rcp, VNDF_R(0.0));
+    of_z.to = of_ng.from = vndf_impl_vector_of(-y * rcp, x * rcp, VNDF_R(0.0));
+    of_z.l = vndf_impl_vector_of(VNDF_R(0.0), VNDF_R(0.0), VNDF_R(1.0));
+    of_ng.l = vndf_impl_vector_of(ng.x, ng.y, ng.z);
     struct vndf_impl_rim rim = vndf_impl_rim_of(wo, ng, VNDF_R(1.0));
     int front = wo.z > VNDF_R(0.0);
-    VNDF_REAL arc = VNDF_R(0.0), sum = VNDF_R(0.0);
+    VNDF_REAL area = VNDF_R(0.0), sum = VNDF_R(0.0);
     for (int k = 0; k < 2; ++k) {
-        int of_z = front && k == 0, of_ng = front && k != 0;
-        struct vndf_impl_vector from, to, axis;
-        from.x = of_z ? right.x : (of_ng ? left.x : rim.from.x);
-        from.y = of_z ? right.y : (of_ng ? left.y : rim.from.y);
-        from.z = front ? VNDF_R(0.0) : rim.from.z;
-        to.x = of_z ? left.x : (of_ng ? right.x : rim.to.x);
-        to.y = of_z ? left.y : (of_ng ? right.y : rim.to.y);
-        to.z = front ? VNDF_R(0.0) : rim.to.z;
-        axis.x = of_z ? VNDF_R(0.0) : (of_ng ? ng.x : rim.axis.x);
-        axis.y = of_z ? VNDF_R(0.0) : (of_ng ? ng.y : rim.axis.y);
-        axis.z = of_z ? VNDF_R(1.0) : (of_ng ? ng.z : rim.axis.z);
-        arc = vndf_impl_arc_area(wo, alpha_x, alpha_y, from, to, axis, front ? VNDF_R(1.0) : rim.gap);
-        sum += arc;
+        struct vndf_impl_arc arc =
+            vndf_impl_arc_choice(front, rim.arc, vndf_impl_arc_choice(k == 0, of_ng, of_z));
+        area = vndf_impl_arc_area(wo, alpha_x, alpha_y, arc, front ? VNDF_R(1.0) : rim.gap);
+        sum += area;
     }
     VNDF_REAL visible = vndf_ggx_sigma_visible(wo, alpha);
     // Where ng is z or -z there are no corners.
     VNDF_REAL level = ng.z > VNDF_R(0.0) ? visible : VNDF_R(0.0);
     VNDF_REAL sigma = size > VNDF_R(0.0) ? VNDF_1_PI * sum : level;
     sigma = vndf_impl_min(vndf_impl_max(sigma, VNDF_R(0.0)), visible);
-    VNDF_REAL behind = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, arc);
+    VNDF_REAL behind = vndf_impl_rim_mass(rim, wo, alpha_x, alpha_y, area);
     return vndf_impl_finite(front ? sigma : behind) + vndf_impl_zero(wo.x, wo.y, wo.z) +
            vndf_impl_zero(ng.x, ng.y, ng.z);
 }

@@ -12,9 +12,17 @@ VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VND
     return VNDF_FMA(a, b, -cd) + VNDF_FMA(-c, d, cd);
 }
 
+// Of numbers: the vectors of a user's own need not be members of a struct.
 struct vndf_impl_vector {
     VNDF_REAL x, y, z;
 };
+VNDF_FN struct vndf_impl_vector vndf_impl_vector_of(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
+    struct vndf_impl_vector v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
 
 // n x w, each component with the error of one rounding.
 VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
