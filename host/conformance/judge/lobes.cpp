@@ -204,14 +204,14 @@ std::array<std::vector<T>, 3> without_lost(std::size_t n, const T* x, const T* y
     return kept;
 }
 
-LobeTest test_kept(double share, std::size_t all, std::size_t kept) {
+LobeTest test_kept(double share, std::size_t all, std::size_t kept, double level) {
     const auto n = static_cast<double>(all);
     const std::uint32_t observed[2] = {static_cast<std::uint32_t>(kept),
                                        static_cast<std::uint32_t>(all - kept)};
     const double expected[2] = {n * share, n * std::max(0., 1 - share)};
     const ChiSquare chi = chi_square(observed, expected, pool_below);
     return {"chi2 of what is kept", true, chi.p,
-            fmt::format("{} of {}, expected {:.0f}", kept, all, expected[0])};
+            fmt::format("{} of {}, expected {:.0f}", kept, all, expected[0]), level};
 }
 
 }  // namespace
@@ -229,7 +229,7 @@ std::vector<LobeTest> test_lobe(const Function& sampler, const std::vector<doubl
     std::array<std::vector<T>, 3> kept;
     if (may_miss(sampler)) {
         kept = without_lost(n, x, y, z);
-        tests.push_back(test_kept(distribution.kept(), n, kept[0].size()));
+        tests.push_back(test_kept(distribution.kept(), n, kept[0].size(), level));
         n = kept[0].size() - kept[0].size() % (histogram_share * chunk);
         if (n == 0) return tests;
         x = kept[0].data(), y = kept[1].data(), z = kept[2].data();
