@@ -1,4 +1,5 @@
-// Products and sums with one rounding or little more.
+// Products and sums with one rounding or little more. Its structs are of numbers: a user's own vectors need not be
+// members of one.
 #ifndef VNDF_IMPL_EXACT_H
 #define VNDF_IMPL_EXACT_H
 
@@ -12,7 +13,6 @@ VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VND
     return VNDF_FMA(a, b, -cd) + VNDF_FMA(-c, d, cd);
 }
 
-// Of numbers: the vectors of a user's own need not be members of a struct.
 struct vndf_impl_vector {
     VNDF_REAL x, y, z;
 };
