@@ -40,20 +40,22 @@ VNDF_FN VNDF_REAL vndf_impl_cap_sigma(struct vndf_impl_cap c, struct vndf_impl_c
     return c.defined && k.length > VNDF_R(0.0) ? sigma * vndf_impl_cap_part(one_minus_cos) : VNDF_R(0.0);
 }
 
-// Two vectors that are orthonormal with the unit vector e, a x b = e: b across z, or along y where e is z.
+// Two vectors that are orthonormal with the unit vector e, a x b = e: b across z, or along y where e is z. (x, y): along
+// (ex, ey), and at hand before it.
 struct vndf_impl_cap_frame {
     VNDF_REAL ax, ay, az, bx, by;
 };
-VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REAL ey, VNDF_REAL ez) {
+VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL x, VNDF_REAL y, VNDF_REAL ex,
+                                                          VNDF_REAL ey, VNDF_REAL ez) {
     struct vndf_impl_cap_frame f;
     // Of two shapes: alike they would be packed (impl/stretch.h).
-    VNDF_REAL size = vndf_impl_abs(ex) + vndf_impl_max(ey, -ey);
+    VNDF_REAL size = vndf_impl_abs(x) + vndf_impl_max(y, -y);
     int level = size > VNDF_R(0.0);
-    VNDF_REAL scale = vndf_impl_scale(level ? size : VNDF_R(1.0)), x = level ? ex * scale : VNDF_R(1.0),
-              y = ey * scale;
-    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(VNDF_FMA(x, x, y * y)));
-    f.by = x * rcp;
-    f.bx = -(y * rcp);
+    VNDF_REAL scale = vndf_impl_scale(level ? size : VNDF_R(1.0)), sx = level ? x * scale : VNDF_R(1.0),
+              sy = y * scale;
+    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), VNDF_SQRT(VNDF_FMA(sx, sx, sy * sy)));
+    f.by = sx * rcp;
+    f.bx = -(sy * rcp);
     f.ax = f.by * ez;
     f.ay = -(f.bx * ez);
     f.az = -VNDF_FMA(f.by, ex, -f.bx * ey);
@@ -69,7 +71,7 @@ VNDF_FN struct vndf_impl_cap_frame vndf_impl_cap_frame_of(VNDF_REAL ex, VNDF_REA
 VNDF_FN struct vndf_ggx_conic2026 vndf_impl_cap_axes(struct vndf_ggx_conic2026 l,
                                                      struct vndf_impl_cap_cone k) {
     VNDF_REAL x2 = l.alpha_x * l.alpha_x, y2 = l.alpha_y * l.alpha_y;
-    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.ex, k.ey, k.ez);
+    struct vndf_impl_cap_frame f = vndf_impl_cap_frame_of(k.wide_x, k.wide_y, k.ex, k.ey, k.ez);
     VNDF_REAL rcp = k.rcp, rcp_mu = rcp * k.omega, share = VNDF_R(0.5) * k.scale * rcp * VNDF_IMPL_CAP_DOWN;
     VNDF_REAL kappa = k.kappa * rcp_mu;
     // P / (1 + e0^T P e0) for mu = 1, and with it all of the matrix times 2^-30: its products may be as large as numbers get.

@@ -134,6 +134,7 @@ VNDF_FN VNDF_REAL vndf_impl_cap_mu(struct vndf_impl_cubic q, VNDF_REAL reach) {
 struct vndf_impl_cap_cone {
     VNDF_REAL x, y, z;
     VNDF_REAL ex, ey, ez, size;  // e0, a unit vector; N e0 times size is omega v + w
+    VNDF_REAL wide_x, wide_y;    // e0 times its length before
     VNDF_REAL length, along;     // 1 / (v . e0), v . e0
     VNDF_REAL qx, qy, qz;
     VNDF_REAL mu, kappa, omega, scale;  // scale: the power of two
@@ -178,6 +179,8 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     ex = k.inside ? ex : k.x;
     ey = k.inside ? ey : k.y;
     ez = k.inside ? ez : k.z;
+    k.wide_x = ex;
+    k.wide_y = ey;
     k.size = VNDF_SQRT(VNDF_FMA(ex, ex, VNDF_FMA(ey, ey, ez * ez)));
     // One feeds the other, which waits for its root (impl/stretch.h).
     k.mu = k.inside ? k.mu : VNDF_R(1.0);
