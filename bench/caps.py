@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What ways to sample a light that fills a cap of directions win in the same time: the table of bench/README.md.
+"""The noise of ways to sample a light that fills a cap of directions, for bench/README.md and the page of clvndf bench.
 
     python3 bench/caps.py OUTPUT.json [--build build/release]
 
@@ -7,8 +7,8 @@ A surface of GGX facets that reflect everything, lit by one even light of half a
 mirror direction towards the normal. Ways: `cones`, ggx_sample_wi_cone2026; `even` in the cap; `conic`, ggx_sample_wi_conic2026, all
 reflections above the horizon, of which those that miss the cap bring nothing; `both`, each of these half of the time with the
 density of both together. Variances of one sample, over the squared mean: second moments of all from one set of samples of the cone,
-by `clvndf eval` in double. kept: the part of the samples that bring light. Times of a sample with its density in nanoseconds,
-strict float, compute-bound, all from one run of `clvndf bench`. Needs numpy; exit status 77 without.
+by `clvndf eval` in double. kept: the part of the samples that bring light. Times are those of a run of `clvndf bench`. Needs
+numpy; exit status 77 without.
 """
 import argparse
 import json
@@ -16,19 +16,16 @@ import pathlib
 import subprocess
 import sys
 
-from divide import best_of
-
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SAMPLES = 1 << 15
 ALPHAS, BETAS, THETAS, OFFS = ((0.05, 0.05), (0.2, 0.2), (0.5, 0.5), (0.1, 0.5)), (1, 5, 20), (20, 60, 80), (0, 15, 30)
-TIMED = {"cones": "vndf_ggx_sample_wi_cone2026_with_pdf/strict", "even": "vndf_ggx_sample_wi_cone2026_with_pdf/evenly",
-         "conic": "vndf_ggx_sample_wi_conic2026_with_pdf/strict", "both": "vndf_ggx_sample_wi_cone2026_with_pdf/both"}
 LOBE = ("wo_x", "wo_y", "wo_z")
 CAP = ("l_x", "l_y", "l_z", "one_minus_cos")
 
 try:
     import numpy as np
 except ImportError:
+    print("caps.py: no numpy (python3-numpy)", file=sys.stderr)
     sys.exit(77)
 
 
@@ -97,11 +94,6 @@ def mean_of_even(clvndf, row):
     return np.mean(weight), np.std(weight) / SAMPLES ** 0.5
 
 
-def times(clvndf):
-    device, best = best_of(clvndf, "*ggx_sample_wi_con*2026_with_pdf/float")
-    return device, {way: best[f"{entry}/float/compute"] for way, entry in TIMED.items()}
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("output", type=pathlib.Path)
@@ -113,9 +105,8 @@ def main():
         mean, error = mean_of_even(clvndf, row)
         if abs(mean - row["mean"]) > 5 * (error + row["error"]):
             sys.exit(f"caps.py: {row}: by even samples the mean is {mean:.4g} +- {error:.2g}")
-    device, ns = times(clvndf)
     short = json.loads(json.dumps(rows, default=float), parse_float=lambda number: float(f"{float(number):.3g}"))
-    arguments.output.write_text(json.dumps({"samples": SAMPLES, "context": device, "ns": ns, "rows": short}, indent=1) + "\n", "utf-8")
+    arguments.output.write_text(json.dumps({"samples": SAMPLES, "rows": short}, indent=1) + "\n", "utf-8")
 
 
 if __name__ == "__main__":

@@ -123,6 +123,7 @@ std::string with_surroundings(const std::string& json, const Surroundings& surro
                                   {"source_bytes", b.source_bytes},
                                   {"binary_bytes", b.binary_bytes}});
     data["instructions"] = nlohmann::ordered_json::parse(surroundings.instructions);
+    data["caps"] = nlohmann::ordered_json::parse(surroundings.caps);
     return data.dump(1) + "\n";
 }
 

@@ -28,6 +28,7 @@ struct Surroundings {
     std::vector<LobeNoise> lobes;
     std::vector<BuildTime> builds;
     std::string instructions = "{}";  // bench/results/instructions.json
+    std::string caps = "{}";          // bench/results/caps.json
 };
 
 struct Measurement {

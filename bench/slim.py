@@ -4,7 +4,7 @@
     python3 bench/slim.py RUN.json KEPT.json
 
 KEPT.json, the run before, says which entries are kept; of functions that it lacks those in strict float and double and as C++;
-and all that was measured twice, which the spread is of. Of each entry the best, the median and the spread of its repetitions, in four digits.
+and all that was measured twice, which the spread is of, and the other ways to sample caps. Of each entry the best, the median and the spread of its repetitions, in four digits.
 """
 import json
 import pathlib
@@ -22,7 +22,7 @@ functions = {name.split("/")[0] for name in kept}
 def wanted(name):
     function, form, *_ = name.split("/")
     new = function not in functions and function.startswith("vndf_")
-    return name in kept or form.startswith("strict_again") or (new and form in ("cpp", "strict"))
+    return name in kept or form.startswith(("strict_again", "evenly", "both")) or (new and form in ("cpp", "strict"))
 
 
 def short(value):

@@ -29,7 +29,6 @@ CALLS = ROOT / "bench/results/calls.txt"
 TILTS = ROOT / "bench/results/tilts.txt"
 PEERS = ROOT / "bench/results/peers-mitsuba-3.9.json"
 EMBREE = ROOT / "bench/results/peers-embree-3.13.json"
-CAPS = ROOT / "bench/results/caps.json"
 REFRACTION = ROOT / "bench/results/refraction.json"
 MITSUBA_BSDF = ROOT / "bench/results/peers-mitsuba-bsdf-3.9.json"
 MITSUBA_RENDER = ROOT / "bench/results/peers-mitsuba-render-3.9.json"
@@ -344,17 +343,14 @@ def refraction():
 def caps():
     """Of each light, for the angles of wo: the noise of one sample of cones and of the best other way, and what cones win in the
     same time where a sample that brings light costs `shading` nanoseconds more."""
-    measured = json.loads(CAPS.read_text("utf-8"))
+    report, run = bench()
     others = ("even", "conic", "both")
 
-    def price(row, way, shading):
-        return row[way]["variance"] * (measured["ns"][way] + shading * row[way]["kept"])
-
     def gain(row, shading):
-        won = min(price(row, way, shading) for way in others) / price(row, "cones", shading)
+        won = min(report.cap_gain(run, row, way, shading) for way in others)
         return "> 1000" if won > 1000 else f"{won:.0f}" if won > 10 else f"{won:.2g}"
     lights = {}
-    for row in measured["rows"]:
+    for row in run.caps:
         if row["off"] <= 15:
             lights.setdefault((*row["alpha"], row["beta"], row["off"]), []).append(row)
     for (alpha_x, alpha_y, beta, off), rows in lights.items():
@@ -365,8 +361,8 @@ def caps():
 
 
 def cap_times():
-    measured = json.loads(CAPS.read_text("utf-8"))
-    return table(list(measured["ns"]), [[f"{ns:.3g} ns" for ns in measured["ns"].values()]])
+    report, run = bench()
+    return table(list(report.CAP_WAYS), [[f"{report.cap_ns(run, way):.3g} ns" for way in report.CAP_WAYS]])
 
 
 def power():
@@ -467,6 +463,8 @@ def main():
     if len(sys.argv) != 2 + check:
         sys.exit(__doc__)
     build = pathlib.Path(sys.argv[-1]).resolve()
+    if not (build / "clvndf").is_file():
+        sys.exit(f"docs.py: no {build / 'clvndf'}: build it first (cmake --build BUILD --target clvndf)")
     pages = [ROOT / "README.md", *sorted(ROOT.glob("[a-z]*/README.md"))]
     problems = []
     for path in [*(p for p in pages if not p.parent.name.startswith("build")), *sorted(ROOT.glob("kernels/vndf/*.h"))]:

@@ -16,12 +16,13 @@ cannot() {
     exit 2
 }
 
+kinds="devices debian oclgrind rusticl intel compilers languages processors"
 quick= digests=digests.txt
 [ "${1-}" = --quick ] && quick=--quick digests=digests_quick.txt && shift
 [ $# -ge 3 ] || cannot "usage: everywhere.sh [--quick] PROJECT BUILD WORK [KIND...]"
 project=$1 build=$2 work=$3
 shift 3
-[ $# -gt 0 ] || set -- devices debian oclgrind rusticl intel compilers languages processors
+[ $# -gt 0 ] || set -- $kinds
 clvndf=$build/clvndf tests=$project/tests
 [ -f "$tests/data/$digests" ] || cannot "no $tests/data/$digests: $project is not the source folder"
 [ -x "$clvndf" ] || cannot "no $clvndf: build it first (cmake --build $build --target clvndf)"
@@ -160,9 +161,9 @@ processors() {
 echo "| implementation | digests |"
 echo "| --- | --- |"
 for kind in "$@"; do
-    case $kind in
-    devices | debian | oclgrind | rusticl | intel | compilers | languages | processors) $kind ;;
-    *) cannot "unknown kind '$kind': devices, debian, oclgrind, rusticl, intel, compilers, languages, processors" ;;
+    case " $kinds " in
+    *" $kind "*) $kind ;;
+    *) cannot "unknown kind '$kind': $kinds" ;;
     esac
 done
 exit $status

@@ -50,6 +50,7 @@ class Bench:
         self.noise = data.get("spread", {})
         self.builds = data.get("builds", [])
         self.instructions = data.get("instructions", {"entries": []})
+        self.caps = data.get("caps", {"rows": []})["rows"]
         functions = {n.split("/")[0] for n in self.best if n.startswith("vndf_")}
         self.functions = sorted(functions, key=lambda f: (not f.startswith("vndf_ggx"), "_sample_" not in f, f))
 
@@ -477,6 +478,59 @@ def equal_time(shading_ns):
     return plot
 
 
+CONE = "vndf_ggx_sample_wi_cone2026_with_pdf"
+CAP_WAYS = {  # to sample a light that fills a cap: entry, name, colour
+    "cones": (f"{CONE}/strict/float", "cones", "#d62728"),
+    "even": (f"{CONE}/evenly/float", "over even samples", "#1f77b4"),
+    "conic": ("vndf_ggx_sample_wi_conic2026_with_pdf/strict/float", "over conic2026", "#2ca02c"),
+    "both": (f"{CONE}/both/float", "over both by the balance heuristic", "#9467bd"),
+}
+
+
+def cap_ns(bench, way):
+    return bench.counter(f"{CAP_WAYS[way][0]}/compute", "ns_per_sample")
+
+
+def cap_gain(bench, row, way, shading_ns):
+    """Noise of a way to sample a cap over that of cones in the same time, as a ratio of variances."""
+    def cost(one):
+        ns = cap_ns(bench, one)
+        return row[one]["variance"] * (ns + shading_ns * row[one]["kept"]) if ns else None
+
+    ours, theirs = cost("cones"), cost(way)
+    return theirs / ours if ours and theirs else None
+
+
+def lights_that_fill_a_cap(benches):
+    """A panel for each roughness and angle off the mirror direction; the angles of light and view beside one another."""
+    bench = benches[0]
+    alphas = list(dict.fromkeys(tuple(row["alpha"]) for row in bench.caps)) or [None]
+    offs = sorted({row["off"] for row in bench.caps}) or [None]
+    figure, axes = plt.subplots(len(alphas), len(offs), figsize=(11, 2.2 * len(alphas) + 1), squeeze=False, sharex=True, sharey=True)
+    for axis, (alpha, off) in zip(axes.flat, ((alpha, off) for alpha in alphas for off in offs)):
+        rows = [row for row in bench.caps if (tuple(row["alpha"]), row["off"]) == (alpha, off)]
+        for way, (_, name, colour) in CAP_WAYS.items():
+            for shading, line in ((0, "-"), (100, ":")):
+                gains = [cap_gain(bench, row, way, shading) for row in rows]
+                if way != "cones" and gains and None not in gains:
+                    axis.plot(range(len(rows)), [min(max(g, 1e-2), 1e4) for g in gains], "o" + line, color=colour, markersize=3,
+                              linewidth=1, label=name if shading == 0 else None)
+        axis.axhline(1, color="black", linewidth=0.8)
+        axis.set(yscale="log", ylim=(0.7e-2, 1.5e4))
+        axis.set_xticks(range(len(rows)), [f"{row['beta']}, {row['theta']}" for row in rows], rotation=60, fontsize=7)
+        if rows:
+            axis.set_title(f"alpha {alpha[0]:g}, {alpha[1]:g}; {off} degrees off the mirror direction", fontsize=8)
+    for axis in axes[-1]:
+        axis.set_xlabel("beta, angle of wo, in degrees", fontsize=8)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("gain of cones", fontsize=8)
+    figure.suptitle(" ")
+    handles, names = axes[0][0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, names, fontsize=8, loc="upper center", ncol=3, frameon=False).set_in_layout(False)
+    return figure
+
+
 def build_times(benches):
     figure, axes = plt.subplots(1, len(benches), figsize=(11, 3.6), squeeze=False)
     for axis, bench in zip(axes[0], benches):
@@ -567,6 +621,10 @@ def target_rows(bench):
     yield from rows("times a copy of as many bytes, streaming", ggx, 1.25, copies)
     yield from rows("time over the bounded cap's, cached", ["vndf_ggx_sample_wi_conic2026"], 3,
                     lambda n: ratio(cached(n), cached(BOUNDED)))
+    yield from rows("time over conic2026's, own lobe and cap, cached", [CONE.removesuffix("_with_pdf")], 2,
+                    lambda n: ratio(cached(n), cached("vndf_ggx_sample_wi_conic2026")))
+    yield from rows("time over conic2026's, lobe and cap shared, with the density", [CONE], 1.5,
+                    lambda n: ratio(cap_ns(bench, "cones"), cap_ns(bench, "conic")))
     yield from rows("instructions over the lean form's, sm_80, fast divisions", priced, 1.7,
                     lambda n: ratio(counts.get((n, "strict")), counts.get((n, "lean"))))
 
@@ -634,6 +692,11 @@ PLOTS = (
      "Sobol's points the squared error counts as variance, which underrates what faster samplers win."),
     ("Equal time, shading 100 ns", equal_time(100),
      "As above, with 100 ns more for each sample that is not rejected: rays and shading."),
+    ("Lights that fill a cap: equal time", lights_that_fill_a_cap,
+     "One even light of half angle beta that nothing hides, over GGX facets that reflect everything: variance in the same time of "
+     "even samples of the cap, of conic2026 and of both by the balance heuristic, over that of cones (cone2026). Above 1 cones win; "
+     "between 0.01 and 10,000 at most. Dots: 100 ns more for each sample that brings light. Variances are those of bench/caps.py, "
+     "times of this run: strict float, compute-bound, with the density."),
     ("Build time", build_times, "One function's program: cold with an empty compiler cache, warm from the cache."),
 )
 

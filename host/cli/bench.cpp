@@ -360,6 +360,7 @@ void add_costly(bench::Surroundings& surroundings, const std::vector<Batch>& bat
         surroundings.builds = bench::build_times(beside);
     }
     surroundings.instructions = embedded("bench/results/instructions.json");
+    surroundings.caps = embedded("bench/results/caps.json");
 }
 
 void add(bench::Session& session, const Batch& batch, const std::string& part, const Progress& progress) {
