@@ -56,7 +56,7 @@ script() {
     case $? in
     0) row "$name" "same bits" ;;
     77) row "$name" "same bits; $(grep -i -m1 'skipped\|missing\|not installed' "$work/log")" && status=$((status == 1 ? 1 : 77)) ;;
-    *) row "$name" "NOT the same bits: $(tail -1 "$work/log")" && status=1 ;;
+    *) row "$name" "NOT the same bits: $(grep -m1 failed "$work/log" || tail -1 "$work/log")" && status=1 ;;
     esac
 }
 

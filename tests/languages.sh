@@ -15,7 +15,7 @@ cannot() {
 }
 
 [ $# = 3 ] || cannot "usage: languages.sh PROJECT BUILD WORK"
-project=$1 build=$2 work=$3
+project=$(cd "$1" && pwd) build=$2 work=$3  # included by files of WORK
 committed=$project/tests/data/digests_quick.txt
 libraries="$build/host/libclvndf_host.a $build/host/reference/libclvndf_reference.a"
 [ -f "$committed" ] || cannot "no $committed: $project is not the source folder"
