@@ -5,7 +5,7 @@
 #   everywhere.sh [--quick] PROJECT BUILD WORK [KIND...]
 #
 # PROJECT: the source folder; BUILD: where it is built; WORK: a folder for what is compiled and installed here. --quick: 2^12
-# inputs a function everywhere, and two compilers. KIND: devices, debian (PoCL of later releases, each in a root of its own, as
+# inputs a function on devices, too, and two compilers. KIND: devices, debian (PoCL of later releases, each in a root of its own, as
 # root, with debootstrap), oclgrind, rusticl, intel, compilers, languages, processors; default: all. What is missing is skipped with a
 # word; sh host/setup.sh --devices installs most.
 # Exit status: 0 the same bits, 1 not, 2 wrong arguments or nothing built, 77 the same as far as could be tried.
@@ -48,14 +48,14 @@ judge() {
     fi
 }
 
-# script NAME SCRIPT ARGUMENT...: a script with exit statuses like ours.
+# script NAME SCRIPT ARGUMENT...: a script with exit statuses like ours, of 4096 inputs a function.
 script() {
     name=$1
     shift
     sh "$@" >"$work/log" 2>&1
     case $? in
-    0) row "$name" "same bits" ;;
-    77) row "$name" "same bits; $(grep -i -m1 'skipped\|missing\|not installed' "$work/log")" && status=$((status == 1 ? 1 : 77)) ;;
+    0) row "$name" "same bits, 4096 inputs a function" ;;
+    77) row "$name" "same bits, 4096 inputs a function; $(grep -i -m1 'skipped\|missing\|not installed' "$work/log")" && status=$((status == 1 ? 1 : 77)) ;;
     *) row "$name" "NOT the same bits: $(grep -m1 failed "$work/log" || tail -1 "$work/log")" && status=1 ;;
     esac
 }
@@ -126,7 +126,7 @@ compilers() {
     if [ -n "$quick" ]; then
         script "g++ and clang++, -O2" "$tests/same_bits.sh" --quick "$project" "$build" "$work/same_bits" "g++ -O2" "clang++ -O2"
     else
-        script "g++ and clang++, -O0 to -O3, with and without -march=native" "$tests/same_bits.sh" "$project" "$build" \
+        script "g++ and clang++, -O0 to -O3, with and without -march=native" "$tests/same_bits.sh" --quick "$project" "$build" \
             "$work/same_bits"
     fi
 }
