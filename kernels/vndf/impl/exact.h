@@ -23,9 +23,6 @@ VNDF_FN struct vndf_impl_vector vndf_impl_vector_of(VNDF_REAL x, VNDF_REAL y, VN
     v.z = z;
     return v;
 }
-VNDF_FN VNDF_REAL3 vndf_impl_real3(struct vndf_impl_vector v) {
-    return VNDF_MAKE3(v.x, v.y, v.z);
-}
 
 // n x w, each component with the error of one rounding.
 VNDF_FN struct vndf_impl_vector vndf_impl_cross(VNDF_REAL3 n, VNDF_REAL3 w) {
