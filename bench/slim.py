@@ -4,7 +4,8 @@
     python3 bench/slim.py RUN.json KEPT.json
 
 KEPT.json, the run before, says which entries are kept; of functions that it lacks those in strict float and double and as C++;
-and all that was measured twice, which the spread is of, and the other ways to sample caps. Of each entry the best, the median and the spread of its repetitions, in four digits.
+and all that was measured twice, which the spread is of, and the other ways to sample caps. Of each entry the best, the median
+and the spread of its repetitions, in four digits.
 """
 import json
 import pathlib

@@ -127,12 +127,10 @@ intel() {
 }
 
 compilers() {
-    if [ -n "$quick" ]; then
-        script "g++ and clang++, -O2" "$tests/same_bits.sh" --quick "$project" "$build" "$work/same_bits" "g++ -O2" "clang++ -O2"
-    else
-        script "g++ and clang++, -O0 to -O3, with and without -march=native" "$tests/same_bits.sh" --quick "$project" "$build" \
-            "$work/same_bits"
-    fi
+    name="g++ and clang++, -O0 to -O3, with and without -march=native"
+    set --
+    [ -z "$quick" ] || { name="g++ and clang++, -O2" && set -- "g++ -O2" "clang++ -O2"; }
+    script "$name" "$tests/same_bits.sh" --quick "$project" "$build" "$work/same_bits" "$@"
 }
 
 languages() { script "C99 to C17, C++11 to C++20, CUDA" "$tests/languages.sh" "$project" "$build" "$work/languages"; }

@@ -15,10 +15,11 @@ cannot() {
 }
 
 [ $# = 3 ] || cannot "usage: languages.sh PROJECT BUILD WORK"
-project=$(cd "$1" && pwd) build=$2 work=$3  # included by files of WORK
+project=$1 build=$2 work=$3
 committed=$project/tests/data/digests_quick.txt
 libraries="$build/host/libclvndf_host.a $build/host/reference/libclvndf_reference.a"
 [ -f "$committed" ] || cannot "no $committed: $project is not the source folder"
+project=$(cd "$project" && pwd)  # files of WORK include what is there
 for library in $libraries; do
     [ -f "$library" ] || cannot "no $library: build it first (cmake --build $build --target clvndf)"
 done

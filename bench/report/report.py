@@ -447,10 +447,10 @@ def lobe_grid(bench, rows, value):
     return figure, axes
 
 
-def lobe_legend(figure, axes):
-    """One for all panels, above the first row, in the room of an empty title."""
+def legend_above(figure, axis):
+    """That of one panel for all, above the first row, in the room of an empty title."""
     figure.suptitle(" ")
-    handles, names = axes[1][0].get_legend_handles_labels()
+    handles, names = axis.get_legend_handles_labels()
     if handles:
         figure.legend(handles, names, fontsize=8, loc="upper center", ncol=len(names),
                       frameon=False).set_in_layout(False)
@@ -461,7 +461,7 @@ def noise_of_one_sample(benches):
             "variance, smooth light": "smooth_variance", "Sobol: RMSE, white light": "sobol_rmse",
             "Sobol: RMSE, smooth light": "smooth_sobol_rmse"}
     figure, axes = lobe_grid(benches[0], list(rows), lambda lobe, row: lobe[rows[row]])
-    lobe_legend(figure, axes)
+    legend_above(figure, axes[1][0])
     return figure
 
 
@@ -473,7 +473,7 @@ def equal_time(shading_ns):
             axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
             axis.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:g}"))
             axis.yaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        lobe_legend(figure, axes)
+        legend_above(figure, axes[1][0])
         return figure
     return plot
 
@@ -524,10 +524,7 @@ def lights_that_fill_a_cap(benches):
         axis.set_xlabel("beta, angle of wo, in degrees", fontsize=8)
     for axis in axes[:, 0]:
         axis.set_ylabel("gain of cones", fontsize=8)
-    figure.suptitle(" ")
-    handles, names = axes[0][0].get_legend_handles_labels()
-    if handles:
-        figure.legend(handles, names, fontsize=8, loc="upper center", ncol=3, frameon=False).set_in_layout(False)
+    legend_above(figure, axes[0][0])
     return figure
 
 
