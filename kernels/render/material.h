@@ -237,14 +237,15 @@ VNDF_FN float vndf_render_facets_part(VNDF_REAL3 wo, VNDF_REAL3 l, float one_min
     const VNDF_REAL3 on_side = VNDF_MAKE3(l.x, l.y, v.side * l.z);
     const float metal = vndf_impl_bsdf_metal_drawn(v);
 #if VNDF_DIELECTRIC
-    const float f = vndf_fresnel_dielectric(vndf_impl_half_cosine(v.o, on_side), v.media.eta);
+    const float f =
+        vndf_fresnel_dielectric(vndf_impl_half_cosine(vndf_impl_real3(v.o), on_side), v.media.eta);
     const float facets = metal + vndf_impl_odds_of(v.media, f).reflected;
     const float others = vndf_impl_max((1.0f - metal) - v.media.specular, 0.0f);
 #else
     const float facets = metal, others = 1.0f - metal;
 #endif
-    const float reflected =
-        facets * vndf_ggx_cap_probability(v.o, on_side, one_minus_cos, vndf_impl_bsdf_alpha(b));
+    const float reflected = facets * vndf_ggx_cap_probability(vndf_impl_real3(v.o), on_side, one_minus_cos,
+                                                              vndf_impl_bsdf_alpha(b));
     // Of light that is spread by the cosine; of a cap at the horizon a part counts.
     const float spread = others * 2.0f * one_minus_cos * vndf_impl_max(on_side.z, 0.1f);
     const float sum = reflected + spread;

@@ -81,7 +81,7 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_lambert(struct vndf_impl_bsdf_
     d.weight = vndf_impl_rgb(red * scale, green * scale, blue * scale);
 #if VNDF_ROUGH_DIFFUSE
     struct vndf_impl_rough_diffuse rough =
-        vndf_impl_rough_diffuse_under(v.o, i, w.bends, v.b.diffuse_roughness);
+        vndf_impl_rough_diffuse_under(vndf_impl_real3(v.o), i, w.bends, v.b.diffuse_roughness);
     d.weight = vndf_impl_rgb_rougher(d.weight, rough, VNDF_DIVIDE(lets_out * w.kept, w.out), v.b.albedo);
 #endif
     d.pdf = vndf_lambert_pdf_wi(i);

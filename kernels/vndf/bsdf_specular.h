@@ -35,7 +35,7 @@ VNDF_FN struct vndf_rgb vndf_impl_bsdf_metallic(struct vndf_impl_bsdf_view v, VN
     VNDF_REAL often = vndf_impl_bsdf_often(v);
     struct vndf_rgb f = vndf_impl_bsdf_reflectance(v.b, cosine);
 #if VNDF_CHOSEN(VNDF_ENERGY, turquin)
-    f = vndf_impl_bsdf_raised(v.b, f, v.o);
+    f = vndf_impl_bsdf_raised(v.b, f, vndf_impl_real3(v.o));
 #endif
     return vndf_impl_rgb_scaled(f, VNDF_DIVIDE(VNDF_R(1.0), often > VNDF_R(0.0) ? often : VNDF_R(1.0)));
 }
@@ -90,7 +90,7 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
     int bends = s.crosses;
     VNDF_REAL3 w = i;
 #endif
-    struct vndf_impl_facing facet = vndf_impl_facing_of(v.o, w, n.eta, bends);
+    struct vndf_impl_facing facet = vndf_impl_facing_of(vndf_impl_real3(v.o), w, n.eta, bends);
     VNDF_REAL metal = vndf_impl_bsdf_metal(v.b), rest = VNDF_R(1.0) - metal;
     VNDF_REAL f = vndf_fresnel_dielectric(facet.cos_o, n.eta);
     VNDF_REAL passed =
@@ -127,8 +127,9 @@ VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_
 
 VNDF_FN struct vndf_impl_specular vndf_impl_bsdf_specular(struct vndf_impl_bsdf_view v, VNDF_REAL3 i) {
     struct vndf_impl_specular s;
-    s.lobe.weight = vndf_impl_rgb_scaled(vndf_impl_bsdf_metallic(v, vndf_impl_half_cosine(v.o, i)),
-                                         vndf_impl_facets_weight(v.facets, i));
+    s.lobe.weight =
+        vndf_impl_rgb_scaled(vndf_impl_bsdf_metallic(v, vndf_impl_half_cosine(vndf_impl_real3(v.o), i)),
+                             vndf_impl_facets_weight(v.facets, i));
     s.lobe.share = vndf_impl_bsdf_metal_drawn(v);
     s.lobe.pdf = vndf_impl_facets_pdf(v.facets, i);
     return s;
@@ -168,14 +169,14 @@ VNDF_FN struct vndf_impl_drawn vndf_impl_bsdf_drawn_specular(struct vndf_impl_bs
     struct vndf_impl_facets_pair both = vndf_impl_facets_both(v.facets, u, mirrors);
     VNDF_REAL cosine = VNDF_FMA(v.o.x, both.normal.x, VNDF_FMA(v.o.y, both.normal.y, v.o.z * both.normal.z));
 #if VNDF_THIN_WALLED
-    VNDF_REAL between =
-        vndf_impl_half_cosine(v.o, VNDF_MAKE3(both.mirrored.x, both.mirrored.y, both.mirrored.z));
+    VNDF_REAL between = vndf_impl_half_cosine(vndf_impl_real3(v.o),
+                                              VNDF_MAKE3(both.mirrored.x, both.mirrored.y, both.mirrored.z));
     cosine = thin ? between : cosine;
 #endif
     VNDF_REAL f = vndf_fresnel_dielectric(cosine, n.eta);
     int late = vndf_impl_bsdf_chosen(n, vndf_impl_odds_of(n, f), metal, u_lobe);
     d.lobe = n.by_normal ? late : early;
-    struct vndf_impl_sample refracted = vndf_impl_refracted(v.o, both.normal, n.eta);
+    struct vndf_impl_sample refracted = vndf_impl_refracted(vndf_impl_real3(v.o), both.normal, n.eta);
     int crosses = d.lobe == VNDF_BSDF_TRANSMISSION;
 #if VNDF_THIN_WALLED
     refracted.x = thin ? both.mirrored.x : refracted.x;

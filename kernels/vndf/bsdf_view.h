@@ -214,9 +214,9 @@ VNDF_FN struct vndf_impl_odds vndf_impl_odds_of(struct vndf_impl_interface n, VN
 
 struct vndf_impl_bsdf_view {
     struct vndf_bsdf b;
-    VNDF_REAL side;  // what turns z to the side of wo
-    VNDF_REAL3 o;    // wo on that side
-    VNDF_REAL3 ng;   // the geometric normal there
+    VNDF_REAL side;              // what turns z to the side of wo
+    struct vndf_impl_vector o;   // wo on that side
+    struct vndf_impl_vector ng;  // the geometric normal there
 #if VNDF_IMPL_FACETS
     struct vndf_impl_facets facets;  // of the base; the coat's where there are no others
 #endif
@@ -234,17 +234,18 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
     struct vndf_impl_bsdf_view v;
     v.b = b;
     v.side = vndf_impl_bsdf_side(wo, b);
-    v.o = VNDF_MAKE3(wo.x, wo.y, v.side * wo.z);
-    v.ng = vndf_impl_bsdf_ng(v.side, b);
+    VNDF_REAL3 o = VNDF_MAKE3(wo.x, wo.y, v.side * wo.z), ng = vndf_impl_bsdf_ng(v.side, b);
+    v.o = vndf_impl_vector_of(o.x, o.y, o.z);
+    v.ng = vndf_impl_vector_of(ng.x, ng.y, ng.z);
 #if VNDF_IMPL_SPECULAR
-    v.facets = vndf_impl_facets_of(v.o, vndf_impl_bsdf_alpha(b), vndf_impl_bsdf_facets_ng(v.ng, b));
+    v.facets = vndf_impl_facets_of(o, vndf_impl_bsdf_alpha(b), vndf_impl_bsdf_facets_ng(ng, b));
 #endif
 #if VNDF_DIELECTRIC
-    v.media = vndf_impl_interface_of(v.o, b, v.side);
+    v.media = vndf_impl_interface_of(o, b, v.side);
     v.facets = vndf_impl_facets_plain(v.facets, v.media.plain);
 #endif
 #if VNDF_IMPL_KULLA_CONTY
-    v.multiple = vndf_impl_bsdf_kulla_conty(b, v.o);
+    v.multiple = vndf_impl_bsdf_kulla_conty(b, o);
 #endif
 #if VNDF_COAT
 #if VNDF_DIELECTRIC
@@ -257,7 +258,7 @@ VNDF_FN struct vndf_impl_bsdf_view vndf_impl_bsdf_view_of(VNDF_REAL3 wo, struct 
 #else
     VNDF_REAL last = VNDF_R(1.0);
 #endif
-    v.coat = vndf_impl_coat_of(v.o, v.ng, b, within, last);
+    v.coat = vndf_impl_coat_of(o, ng, b, within, last);
 #if !VNDF_IMPL_SPECULAR
     v.facets = v.coat.facets;
 #endif
@@ -313,7 +314,8 @@ VNDF_FN struct vndf_impl_bsdf_lobe vndf_impl_bsdf_coat(struct vndf_impl_bsdf_vie
     struct vndf_impl_bsdf_lobe l;
     struct vndf_impl_facets facets = vndf_impl_facets_after(v.coat.facets, last);
     VNDF_REAL3 wi = VNDF_MAKE3(i.x, i.y, last >= VNDF_R(0.0) ? i.z : VNDF_R(1.0));
-    VNDF_REAL f = vndf_fresnel_dielectric(vndf_impl_half_cosine(v.o, wi), VNDF_IMPL_COAT_IOR);
+    VNDF_REAL f =
+        vndf_fresnel_dielectric(vndf_impl_half_cosine(vndf_impl_real3(v.o), wi), VNDF_IMPL_COAT_IOR);
     VNDF_REAL share = v.coat.share, light = v.coat.factor * f * vndf_impl_facets_weight(facets, wi);
     VNDF_REAL weight = VNDF_DIVIDE(light, share > VNDF_R(0.0) ? share : VNDF_R(1.0));
     l.weight = vndf_impl_rgb(weight, weight, weight);
@@ -329,7 +331,7 @@ VNDF_FN struct vndf_impl_facets vndf_impl_bsdf_chosen_facets(struct vndf_impl_bs
     VNDF_REAL x = coated ? v.coat.alpha : alpha.x, y = coated ? v.coat.alpha : alpha.y;
     // Dependent on the coat's own, so that LLVM's SLP pass does not pack the two; the other choice is never taken.
     VNDF_REAL z = vndf_impl_facets_seen(v.coat.facets) >= VNDF_R(0.0) ? v.o.z : VNDF_R(1.0);
-    VNDF_REAL3 own = vndf_impl_bsdf_facets_ng(v.ng, v.b);
+    VNDF_REAL3 own = vndf_impl_bsdf_facets_ng(vndf_impl_real3(v.ng), v.b);
     VNDF_REAL3 ng = VNDF_MAKE3(coated ? v.ng.x : own.x, coated ? v.ng.y : own.y, coated ? v.ng.z : own.z);
     struct vndf_impl_facets facets = vndf_impl_facets_of(VNDF_MAKE3(v.o.x, v.o.y, z), VNDF_MAKE2(x, y), ng);
 #if VNDF_DIELECTRIC

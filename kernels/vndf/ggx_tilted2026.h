@@ -124,8 +124,9 @@ VNDF_FN struct vndf_impl_sample vndf_impl_tilted_reflect(struct vndf_ggx_tilted2
 VNDF_FN struct vndf_impl_sample vndf_impl_tilted2026(struct vndf_ggx_tilted2026 t, VNDF_REAL2 u) {
     struct vndf_impl_sample o = vndf_impl_tilted_reflect(t, vndf_impl_tilted_sampled(t, u), 0);
     int kept = o.pdf > VNDF_R(0.0);
-    // Of four shapes: of choices of 0 and a number some would be packed for the vector that is returned (impl/stretch.h).
-    o.x = VNDF_FMA(o.x, kept ? VNDF_R(1.0) : VNDF_R(0.0), VNDF_R(0.0));
+    // Of four shapes: of choices of 0 and a number some would be packed for the vector that is returned (impl/stretch.h). And by
+    // choices alone: x * 0 + 0 has the sign of x for compilers that do not know a zero's (Mesa's).
+    o.x = kept && vndf_impl_abs(o.x) > VNDF_R(0.0) ? o.x : VNDF_R(0.0);
     o.y = kept ? o.y : VNDF_R(0.0);
     o.z = vndf_impl_max(kept ? o.z : VNDF_R(-1.0), VNDF_R(0.0));
     o.pdf = kept ? o.pdf : VNDF_R(0.0);

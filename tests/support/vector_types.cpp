@@ -71,6 +71,13 @@ using real3 = VNDF_REAL3;
 #define VNDF_MAKE4(x, y, z, w) MAKE(4, x, y, z, w)
 using real4 = VNDF_REAL4;
 #endif
+#define VNDF_CONDUCTOR 1
+#define VNDF_DIELECTRIC 1
+#define VNDF_LAMBERT 1
+#define VNDF_COAT 1
+#define VNDF_SHADING_NORMAL 1
+#define VNDF_ENERGY turquin
+#include "../../kernels/vndf/bsdf.h"
 #include "../../kernels/vndf/vndf.h"
 #if !(TYPES & 1)
 using real2 = vndf_float2;
@@ -110,4 +117,16 @@ int main() {
     print(with_pdf);
     print(inverse);
     print(vndf_beckmann_pdf_wi(wo, wi, alpha));
+    vndf_bsdf material = {};
+    material.alpha_x = 0.3f;
+    material.albedo.g = 0.5f;
+    material.metal = 0.2f;
+    material.ior = 1.5f;
+    material.transmission = 0.5f;
+    material.coat = 0.5f;
+    material.coat_alpha = 0.1f;
+    material.ng_z = 1;
+    const vndf_bsdf_direction drawn = vndf_bsdf_sample(wi, material, u, 0.9f);
+    print(vndf_bsdf_eval_pdf(wi, wm, material));
+    print(drawn);
 }

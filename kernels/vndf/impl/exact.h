@@ -1,9 +1,8 @@
-// Products and sums with one rounding or little more. Its structs are of numbers: a user's own vectors need not be
-// members of one.
+// Products and sums with one rounding or little more.
 #ifndef VNDF_IMPL_EXACT_H
 #define VNDF_IMPL_EXACT_H
 
-#include "shim.h"
+#include "vector.h"
 
 VNDF_BEGIN
 
@@ -11,17 +10,6 @@ VNDF_BEGIN
 VNDF_FN VNDF_REAL vndf_impl_difference_of_products(VNDF_REAL a, VNDF_REAL b, VNDF_REAL c, VNDF_REAL d) {
     VNDF_REAL cd = c * d;
     return VNDF_FMA(a, b, -cd) + VNDF_FMA(-c, d, cd);
-}
-
-struct vndf_impl_vector {
-    VNDF_REAL x, y, z;
-};
-VNDF_FN struct vndf_impl_vector vndf_impl_vector_of(VNDF_REAL x, VNDF_REAL y, VNDF_REAL z) {
-    struct vndf_impl_vector v;
-    v.x = x;
-    v.y = y;
-    v.z = z;
-    return v;
 }
 
 // n x w, each component with the error of one rounding.

@@ -1,22 +1,13 @@
-// Directions and samples as scalars, the stretched view direction, and what GGX is in it.
+// The stretched view direction, and what GGX is in it.
 //
 // Internals take and return scalars: vector arithmetic in a body keeps CPU devices from vectorising a kernel.
 #ifndef VNDF_IMPL_STRETCH_H
 #define VNDF_IMPL_STRETCH_H
 
 #include "range.h"
+#include "vector.h"
 
 VNDF_BEGIN
-
-struct vndf_impl_sample {
-    VNDF_REAL x, y, z, pdf;
-};
-VNDF_FN VNDF_REAL3 vndf_impl_direction(struct vndf_impl_sample s) {
-    return VNDF_MAKE3(s.x, s.y, s.z);
-}
-VNDF_FN VNDF_REAL4 vndf_impl_direction_pdf(struct vndf_impl_sample s) {
-    return VNDF_MAKE4(s.x, s.y, s.z, s.pdf);
-}
 
 // What a sampler returns where its method is not defined, and where the length of wo has left the range of
 // numbers: the macroscopic normal, with density 0.
