@@ -98,6 +98,8 @@ void set_name(Run& run) {
 std::string with_surroundings(const std::string& json, const Surroundings& surroundings,
                               const std::map<std::string, double>& spread) {
     auto data = nlohmann::ordered_json::parse(json);
+    // Not by AddCustomContext, which keeps the first of several devices for all.
+    for (const auto& [key, value] : surroundings.context) data["context"][key] = value;
     for (auto& entry : data["benchmarks"])
         if (entry["run_name"].get<std::string>().starts_with("vndf_") && !entry.contains("price"))
             entry["price"] = nullptr;
@@ -185,7 +187,6 @@ void Measurer::run(const std::vector<Entry>& entries, const std::function<void(d
 }
 
 Measurement Measurer::finish(const Surroundings& surroundings) {
-    for (const auto& [key, value] : surroundings.context) benchmark::AddCustomContext(key, value);
     std::map<std::string, double> best_ns, median_ns;
     for (const Run& run : state_->collector.runs()) {
         const double ns = run.counters.at("ns_per_sample").value;
@@ -247,7 +248,6 @@ Measurement merged(const std::vector<Measurement>& parts, const Surroundings& su
     Measurement whole;
     std::map<std::string, double> best_ns;
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(parts.front().json);
-    for (const auto& [key, value] : surroundings.context) json["context"][key] = value;
     json["benchmarks"].clear();
     for (const Measurement& part : parts) {
         std::set<std::string> before;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -121,6 +123,60 @@ class Report {
     NewFolder folder_;
     OutputFile measurements_, page_;
 };
+
+// Where the measurements of one device go.
+struct Outputs {
+    std::optional<OutputFile> json;
+    std::optional<Report> report;
+};
+
+// Of the devices' files the at-th one's: run.json, run-2.json, run-3.json; of their folders out, out-2, out-3.
+std::string numbered(const std::string& path, std::size_t at) {
+    if (path.empty() || at == 0) return path;
+    std::filesystem::path name(path);
+    if (!name.has_filename()) name = name.parent_path();
+    const std::string extension = name.extension() == ".json" ? ".json" : "";
+    if (!extension.empty()) name.replace_extension();
+    return fmt::format("{}-{}{}", name.string(), at + 1, extension);
+}
+
+// Whether files beside it can be named like it.
+bool is_plain_file(const std::string& path) {
+    const auto status = std::filesystem::symlink_status(path);
+    return !is_standard_output(path) && (!std::filesystem::exists(status) || is_regular_file(status));
+}
+
+// A device at a time, since side by side they would disturb each other: all of --device all, each with a table and files of its
+// own, which are opened before anything is measured.
+void on_each_device(const Bench& options, Common& common, bool table,
+                    const std::function<void(const runtime::Device&, Outputs&)>& run) {
+    const FreshCaches caches;
+    Target target;
+    target.device = options.device;
+    const std::vector<runtime::Device> devices = target.choose_all(common);
+    const bool several = devices.size() > 1;
+    if (several) common.require_one_process("bench --device all");
+    if (several && !options.json.empty() && !is_plain_file(options.json))
+        throw InputError(fmt::format("--json '{}': {} devices have a file each, and this is no plain file",
+                                     options.json, devices.size()));
+    std::vector<NamedFile> names;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        names.push_back({"--json", numbered(options.json, i)});
+        if (!options.report.empty())
+            for (const char* name : {"bench.json", "index.html"})
+                names.push_back({"--report", in_folder(numbered(options.report, i), name)});
+    }
+    require_distinct(names, {{"--compare", options.compare}});
+    std::deque<Outputs> outputs(devices.size());
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        if (!options.json.empty()) outputs[i].json.emplace(numbered(options.json, i));
+        if (!options.report.empty()) outputs[i].report.emplace(numbered(options.report, i));
+    }
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        if (several && table) put("{}{}\n", i == 0 ? "" : "\n", devices[i].label());
+        run(devices[i], outputs[i]);
+    }
+}
 
 // What --only asks for: functions, and behind a slash part of the name of a form.
 struct Selection {
@@ -327,24 +383,20 @@ void run_effects(const Bench& options, Common& common) {
     const std::vector<bench::EffectCost> programs = selected_programs(options.only);
     const bool table = !is_standard_output(options.json);
     if (table) require_output();
-    std::optional<OutputFile> json;
-    if (!options.json.empty()) json.emplace(options.json);
-    const FreshCaches caches;
-    Target target;
-    target.device = options.device;
-    const runtime::Device device = target.choose(common);
-    const Progress progress(common.quiet);
-    const std::vector<bench::EffectCost> costs =
-        bench::effect_costs(device, programs, options.repetitions == 0 ? 15 : options.repetitions,
-                            [&](double done) { progress("building and measuring", done); });
-    progress.clear();
-    if (table) print_effects(costs);
-    if (!json) return;
-    json->write(bench::effects_json(costs, {{"device", device.label()},
-                                            {"platform_version", device.platform_version},
-                                            {"driver_version", device.driver},
-                                            {"clvndf_version", CLVNDF_VERSION}}));
-    json->commit();
+    on_each_device(options, common, table, [&](const runtime::Device& device, Outputs& outputs) {
+        const Progress progress(common.quiet);
+        const std::vector<bench::EffectCost> costs =
+            bench::effect_costs(device, programs, options.repetitions == 0 ? 15 : options.repetitions,
+                                [&](double done) { progress("building and measuring", done); });
+        progress.clear();
+        if (table) print_effects(costs);
+        if (!outputs.json) return;
+        outputs.json->write(bench::effects_json(costs, {{"device", device.label()},
+                                                        {"platform_version", device.platform_version},
+                                                        {"driver_version", device.driver},
+                                                        {"clvndf_version", CLVNDF_VERSION}}));
+        outputs.json->commit();
+    });
 }
 
 // Only the JSON holds the noise of lobes and the times of builds, which are of samplers and take a minute: where one is measured
@@ -445,34 +497,10 @@ bench::Measurement measure_by_ranks(const Bench& options, Common& common, const 
     return bench::merged(parts, surroundings);
 }
 
-void run_bench(Bench options, Common& common) {
-    if (!common.leads()) options.json.clear(), options.report.clear(), options.compare.clear();
-    if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
-    const Selection selection = parse_only(options.only);
-    std::optional<conformance::UserKernel> user;
-    if (!options.user.file.empty()) common.require_one_process("bench --kernel"), user.emplace(options.user);
-    if (user && !user->ours())
-        throw InputError(
-            fmt::format("--as {}: clvndf bench times a sampler, a density or a term; name what it is to be",
-                        options.user.as));
-    std::vector<NamedFile> outputs = {{"--json", options.json}};
-    if (!options.report.empty())
-        for (const char* name : {"bench.json", "index.html"})
-            outputs.push_back({"--report", in_folder(options.report, name)});
-    require_distinct(outputs, {{"--compare", options.compare}});
-    std::vector<bench::Result> baseline;
-    if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
-    const bool table = !is_standard_output(options.json);
-    if (table) require_output();
-    std::optional<OutputFile> json;
-    if (!options.json.empty()) json.emplace(options.json);
-    std::optional<Report> report;
-    if (!options.report.empty()) report.emplace(options.report);
-
-    const FreshCaches caches;
-    Target target;
-    target.device = options.device;
-    const runtime::Device device = target.choose(common);
+void bench_device(const Bench& options, Common& common, const Selection& selection,
+                  const std::optional<conformance::UserKernel>& user,
+                  const std::vector<bench::Result>& baseline, const runtime::Device& device,
+                  Outputs& outputs) {
     const Progress progress(common.quiet);
     const bool whole = !options.quick && !options.advise;
     bench::SessionOptions session_options;
@@ -487,21 +515,41 @@ void run_bench(Bench options, Common& common) {
     const std::vector<Form> forms =
         user ? forms_beside(*user, program, device) : selected_forms(device, selection, options);
     const std::vector<Batch> batches = in_batches(forms, most_of_batch(forms.size(), common));
-    const bool all = json || report;
+    const bool all = outputs.json || outputs.report;
     const bench::Measurement measurement =
         common.ranks->size() > 1 ? measure_by_ranks(options, common, device, session_options, batches, all)
                                  : measure(options, device, session_options, batches, user, all, progress);
     progress.clear();
     if (!common.leads()) return;
-    if (json) json->write(measurement.json), json->commit();
+    if (outputs.json) outputs.json->write(measurement.json), outputs.json->commit();
     const bench::Demand demand{options.error, options.front ? Domain::upper : Domain::sphere};
+    const bool table = !is_standard_output(options.json);
     if (table && options.advise)
         print_advice(bench::advise(measurement.results, demand), demand, measurement.spread);
     if (table && !options.advise) print_measurement(measurement);
     if (table && user) print_beside(measurement, user->function().name);
     if (table && !baseline.empty())
         print_comparison(measurement.results, baseline, measurement.spread, options.compare);
-    if (report) report->write(measurement.json);
+    if (outputs.report) outputs.report->write(measurement.json);
+}
+
+void run_bench(Bench options, Common& common) {
+    if (!common.leads()) options.json.clear(), options.report.clear(), options.compare.clear();
+    if (options.repetitions == 0) options.repetitions = options.quick || options.advise ? 9 : 15;
+    const Selection selection = parse_only(options.only);
+    std::optional<conformance::UserKernel> user;
+    if (!options.user.file.empty()) common.require_one_process("bench --kernel"), user.emplace(options.user);
+    if (user && !user->ours())
+        throw InputError(
+            fmt::format("--as {}: clvndf bench times a sampler, a density or a term; name what it is to be",
+                        options.user.as));
+    std::vector<bench::Result> baseline;
+    if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
+    const bool table = !is_standard_output(options.json);
+    if (table) require_output();
+    on_each_device(options, common, table, [&](const runtime::Device& device, Outputs& outputs) {
+        bench_device(options, common, selection, user, baseline, device, outputs);
+    });
 }
 
 }  // namespace
@@ -511,7 +559,7 @@ void add_bench(CLI::App& app, Common& common) {
     CLI::App* command = app.add_subcommand(
         "bench",
         "time of every function in every policy, beside the published listings, C++ and plain copies");
-    add_device(*command, options->device);
+    add_device(*command, options->device, "are measured one after another");
     command->add_option(
         "--only", options->only,
         "only functions whose name contains this, or matches it with * and ?; after a slash, only "

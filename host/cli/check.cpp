@@ -363,7 +363,7 @@ void add_check(CLI::App& app, Common& common) {
     const auto options = std::make_shared<Check>();
     CLI::App* command = app.add_subcommand(
         "check", "conformance of a device: every function against the reference; exit status 1 if one fails");
-    options->target.add_to(*command, true);
+    options->target.add_to(*command, "share the work");
     add_only(*command, options->only);
     CLI::Option* quick =
         command->add_flag("--quick", options->quick, "12 lobes a sampler, fewer samples and points");

@@ -43,7 +43,7 @@ runtime::Real real_named(const std::string& name) {
     return name == "float" ? runtime::Real::f32 : runtime::Real::f64;
 }
 
-void Target::add_to(CLI::App& command, bool several) {
+void Target::add_to(CLI::App& command, const std::string& several) {
     add_device(command, device, several);
     add_switches(command, math_name, real_name);
 }

@@ -37,7 +37,7 @@ runtime::Real real_named(const std::string& name);
 struct Target {
     std::string device, math_name = "strict", real_name = "float";
 
-    void add_to(CLI::App& command, bool several = false);
+    void add_to(CLI::App& command, const std::string& several = {});
     runtime::Math math() const;  // throws InputError if it does not exist for real()
     runtime::Real real() const;
     // The device asked for; unless quiet, stderr says which one was taken of several.

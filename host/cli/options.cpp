@@ -6,12 +6,12 @@
 
 namespace vndf::cli {
 
-CLI::Option* add_device(CLI::App& command, std::string& device, bool several) {
+CLI::Option* add_device(CLI::App& command, std::string& device, const std::string& several) {
     std::string description =
         "first device whose platform or device name contains this; with #N behind it the N-th of them\n"
         "(default: $CLVNDF_DEVICE, else PoCL's CPU device, else the first device with a compiler)";
-    if (several)
-        description += ";\nall, or all:NAME: every device, or all of that name, which share the work";
+    if (!several.empty())
+        description += ";\nall, or all:NAME: every device, or all of that name, which " + several;
     return command.add_option("--device", device, description);
 }
 

@@ -15,8 +15,8 @@
 
 namespace vndf::cli {
 
-// several: of a command that takes --device all.
-CLI::Option* add_device(CLI::App& command, std::string& device, bool several = false);
+// several: of a command that takes --device all, what the devices do: "share the work".
+CLI::Option* add_device(CLI::App& command, std::string& device, const std::string& several = {});
 
 // --only; `pattern` is set to what was given, empty without the option.
 CLI::Option* add_only(CLI::App& command, std::string& pattern);

@@ -522,7 +522,7 @@ void add_render(CLI::App& app, Common& common) {
         ->excludes(sky);
     add_number(*command, "--env-rotation", r->scene.rotation, -3600.0f, 3600.0f,
                "degrees by which it is turned, counterclockwise seen from above");
-    add_device(*command, r->device, true);
+    add_device(*command, r->device, "share the work");
     command->callback([r, &common] { common.action = [r, &common] { run(*r, common); }; });
 }
 

@@ -234,6 +234,41 @@ TEST_CASE("--device all takes alike devices alone, and no command that uses one"
     CHECK(clvndf("check --quick --only vndf_reflect --device all:nosuch").status == 2);
 }
 
+TEST_CASE("bench measures the devices of --device all in turn, each with a table and a file of its own") {
+    if (clvndf("bench --help").status != 0) return;
+    if (!has_pocl()) VNDF_SKIP("PoCL plays the devices");
+    const Folder folder;
+    const auto bench = [&](const std::string& json) {
+        return shell(
+            folder,
+            "POCL_DEVICES='pthread basic' \"$clvndf\" --quiet bench --only vndf_reflect/strict/float "
+            "--repetitions 3 --device all --json " +
+                json + " >out 2>err");
+    };
+    REQUIRE(bench("run.json") == 0);
+    const auto device = [&](const std::string& file) {
+        return nlohmann::json::parse(folder.read(file)).at("context").at("device").get<std::string>();
+    };
+    const std::string first = device("run.json"), second = device("run-2.json"), out = folder.read("out");
+    CAPTURE(first, second, out);
+    CHECK((first.find("basic") != std::string::npos) != (second.find("basic") != std::string::npos));
+    const std::size_t after = out.find('\n' + second + '\n');
+    CHECK(out.starts_with(first + '\n'));
+    REQUIRE(after != std::string::npos);
+    for (const std::string& part : {out.substr(0, after), out.substr(after)})
+        CHECK_THAT(part, ContainsSubstring("vndf_reflect\n"));
+    CHECK(folder.read("err").empty());
+
+    for (const std::string json : {"-", "/dev/null"}) {
+        CHECK(bench(json) == 2);
+        CHECK_THAT(folder.read("err"),
+                   ContainsSubstring("--json '" + json + "': 2 devices have a file each"));
+    }
+    CHECK(bench("run.json --compare run-2.json") == 2);
+    CHECK_THAT(folder.read("err"), ContainsSubstring("run-2.json: one file"));
+    CHECK(bench("nowhere/run.json") == 2);
+}
+
 TEST_CASE("an exhaustion that is cut short goes on from its checkpoint to the same record") {
     const Folder folder;
     const std::string run = broken() + "\"$clvndf\" --quiet " + walk;
