@@ -111,7 +111,7 @@ oclgrind() {
     fi
 }
 
-# Three quarters of an hour: its compiler takes minutes for each tilted sampler and area.
+# An hour and more where Mesa has cached nothing: its compiler takes minutes for each tilted sampler and area.
 rusticl() { script "rusticl on llvmpipe" "$tests/rusticl.sh" --quick "$project" "$build"; }
 
 # From PyPI, into WORK. Its loader is another than the system's.
