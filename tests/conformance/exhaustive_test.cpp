@@ -137,6 +137,20 @@ TEST_CASE("at the corners of u normals face the viewer, in every lobe of the wal
     }
 }
 
+TEST_CASE("at the corners of u reflections into caps have a density, in every lobe of the walk") {
+    runtime::HostEvaluator host(runtime::Math::strict, runtime::Real::f32);
+    for (const std::string name : {"vndf_ggx_sample_wi_cone2026", "vndf_ggx_sample_wi_cone2026_lobe"}) {
+        const Function& sampler = *find_function(name + "_with_pdf");
+        const Table table = corners(*find_function(sampler.plain));
+        const std::vector<double> density = evaluate(host, sampler, table).back();
+        REQUIRE(density.size() > 5000);
+        const auto lost = std::find_if(density.begin(), density.end(), [](double d) { return !(d > 0); });
+        const auto row = static_cast<std::size_t>(lost - density.begin());
+        INFO(name << " at " << (lost == density.end() ? "" : hex_row(sampler, table.row(row))));
+        CHECK(lost == density.end());
+    }
+}
+
 TEST_CASE("the exhaustion finds the one u at which a promise is broken, for each promise, and names it") {
     std::vector<const Function*> samplers;
     for (const Planted& p : planted()) samplers.push_back(find_function(p.sampler));

@@ -69,9 +69,11 @@ void check_domain(runtime::HostFunction (*find)(const char*)) {
                 UNSCOPED_INFO(function.name << ", " << to_string(real) << ": " << describe(flags) << "at "
                                             << hex_row(function, row));
         }
-        // Of a half-space whose rim wo lies on, with alpha next to 1e-8, the product of two numbers of the cone is nothing; in float.
+        // Of a half-space whose rim wo lies on to within 1e-20, with alpha next to 1e-8, a cone is less than numbers get, and so are
+        // the areas of its arcs; in float.
         const auto is = [&](const char* part) { return function.name.find(part) != std::string::npos; };
-        CHECK(bad <= (real == Real::f32 && (is("tilted") || is("cap_mass")) ? 60 : 0));
+        const std::size_t allowed = is("tilted") ? 5 : is("cap_mass") ? 60 : 0;
+        CHECK(bad <= (real == Real::f32 ? allowed : 0));
     }
 }
 

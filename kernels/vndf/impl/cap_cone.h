@@ -164,8 +164,9 @@ VNDF_FN struct vndf_impl_cap_cone vndf_impl_cap_cone_of(struct vndf_impl_cap c, 
     k.z = wo_z;
     // N = mu + kappa A^2, and v^T v, w^T w over it.
     VNDF_REAL nx = VNDF_FMA(k.kappa, x2, k.mu), ny = VNDF_FMA(k.kappa, y2, k.mu), nz = k.kappa + k.mu;
-    VNDF_REAL rcp = VNDF_DIVIDE(VNDF_R(1.0), nx * ny), gx = ny * rcp, gy = rcp * nx,
-              gz = VNDF_DIVIDE(VNDF_R(1.0), nz);
+    // By one quotient, of nx near 1: as they are, nx ny may be less than numbers get.
+    VNDF_REAL up = vndf_impl_scale(nx), one = nx * up, rcp = VNDF_DIVIDE(VNDF_R(1.0), one * ny),
+              gx = ny * rcp * up, gy = rcp * one, gz = VNDF_DIVIDE(VNDF_R(1.0), nz);
     VNDF_REAL hx = x2 * gx, hy = gy * y2;
     VNDF_REAL vv = VNDF_FMA(hx * wo_x, wo_x, VNDF_FMA(hy * wo_y, wo_y, gz * wo_z * wo_z));
     VNDF_REAL ww = VNDF_FMA(hx * c.lx, c.lx, VNDF_FMA(hy * c.ly, c.ly, gz * c.lz * c.lz));
