@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -126,8 +125,8 @@ class Report {
 
 // Where the measurements of one device go.
 struct Outputs {
-    std::optional<OutputFile> json;
-    std::optional<Report> report;
+    std::unique_ptr<OutputFile> json;
+    std::unique_ptr<Report> report;
 };
 
 // Of the devices' files the at-th one's: run.json, run-2.json, run-3.json; of their folders out, out-2, out-3.
@@ -146,10 +145,25 @@ bool is_plain_file(const std::string& path) {
     return !is_standard_output(path) && (!std::filesystem::exists(status) || is_regular_file(status));
 }
 
+Outputs outputs_of(const Bench& options, std::size_t at) {
+    const std::string json = numbered(options.json, at), report = numbered(options.report, at);
+    std::vector<NamedFile> names = {{"--json", json}};
+    if (!report.empty())
+        for (const char* name : {"bench.json", "index.html"})
+            names.push_back({"--report", in_folder(report, name)});
+    require_distinct(names, {{"--compare", options.compare}});
+    Outputs outputs;
+    if (!json.empty()) outputs.json = std::make_unique<OutputFile>(json);
+    if (!report.empty()) outputs.report = std::make_unique<Report>(report);
+    return outputs;
+}
+
 // A device at a time, since side by side they would disturb each other: all of --device all, each with a table and files of its
 // own, which are opened before anything is measured.
 void on_each_device(const Bench& options, Common& common, bool table,
                     const std::function<void(const runtime::Device&, Outputs&)>& run) {
+    std::vector<Outputs> outputs;
+    outputs.push_back(outputs_of(options, 0));
     const FreshCaches caches;
     Target target;
     target.device = options.device;
@@ -159,19 +173,7 @@ void on_each_device(const Bench& options, Common& common, bool table,
     if (several && !options.json.empty() && !is_plain_file(options.json))
         throw InputError(fmt::format("--json '{}': {} devices have a file each, and this is no plain file",
                                      options.json, devices.size()));
-    std::vector<NamedFile> names;
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        names.push_back({"--json", numbered(options.json, i)});
-        if (!options.report.empty())
-            for (const char* name : {"bench.json", "index.html"})
-                names.push_back({"--report", in_folder(numbered(options.report, i), name)});
-    }
-    require_distinct(names, {{"--compare", options.compare}});
-    std::deque<Outputs> outputs(devices.size());
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (!options.json.empty()) outputs[i].json.emplace(numbered(options.json, i));
-        if (!options.report.empty()) outputs[i].report.emplace(numbered(options.report, i));
-    }
+    for (std::size_t i = 1; i < devices.size(); ++i) outputs.push_back(outputs_of(options, i));
     for (std::size_t i = 0; i < devices.size(); ++i) {
         if (several && table) put("{}{}\n", i == 0 ? "" : "\n", devices[i].label());
         run(devices[i], outputs[i]);
