@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +24,15 @@ inline std::string quoted_for_shell(std::string_view text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + "'";
+}
+
+// C99's hex: 0x1.8p-3. Not by fmt's {:a}, which in Debian 13 writes 0 as 0x0p-1022.
+inline std::string hex_number(double x) {
+    char text[32];
+    const char* const end = std::to_chars(text, text + sizeof text, std::abs(x), std::chars_format::hex).ptr;
+    std::string out = std::signbit(x) ? "-" : "";
+    if (std::isfinite(x)) out += "0x";
+    return out.append(text, static_cast<std::size_t>(end - text));
 }
 
 // What stands between the separators: one part more than there are of them, some of them empty.

@@ -253,13 +253,13 @@ TEST_CASE("what is wrong, inexact and outside of the domain are told apart") {
 TEST_CASE(
     "a user's file may include the library and files of its own, and is built with options of its own") {
     const UserKernel kernel(
-        asked("with_library.cl", "my_sample", "vndf_ggx_sample_wm_dupuy2023", "-cl-std=CL2.0 -DMINE=1"));
+        asked("with_library.cl", "my_sample", "vndf_ggx_sample_wm_dupuy2023", "-cl-std=CL3.0 -DMINE=1"));
     const Report report = judged(kernel);
     INFO(format_table(report));
     const FunctionReport& f = report.functions.front();
     CHECK(f.verdict() == Verdict::pass);
     CHECK(finding(f, "map, p99").figure < 1);
-    CHECK_THAT(report.options, ContainsSubstring("-cl-std=CL2.0"));
+    CHECK_THAT(report.options, ContainsSubstring("-cl-std=CL3.0"));
     CHECK_THAT(report.options, !ContainsSubstring("-cl-std=CL1.2"));
 }
 

@@ -6,6 +6,7 @@
 #include "conformance/judge/digest.h"
 #include "conformance/judge/errors.h"
 #include "kernels/vndf/vndf.h"
+#include "text.h"
 
 namespace vndf::conformance {
 
@@ -23,8 +24,8 @@ std::string format_answers(runtime::Evaluator& evaluator, runtime::Math math,
                             fmt::join(function->outputs, ","));
         for (std::size_t i = 0; i < table.rows(); ++i) {
             text += function->name;
-            for (const auto& column : table.columns) text += fmt::format(",{:a}", column[i]);
-            for (const auto& column : results) text += fmt::format(",{:a}", column[i]);
+            for (const auto& column : table.columns) text += "," + hex_number(column[i]);
+            for (const auto& column : results) text += "," + hex_number(column[i]);
             text += '\n';
         }
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "text.h"
+
 namespace vndf::conformance {
 
 void Errors::add(double error, std::size_t row) {
@@ -45,7 +47,7 @@ std::string hex_row(const Function& function, const std::vector<double>& row,
     std::string text;
     for (std::size_t i = 0; i < row.size(); ++i)
         if (!wanted || wanted(function.inputs[i]))
-            text += fmt::format("{}{}={:a}", text.empty() ? "" : " ", function.inputs[i], row[i]);
+            text += (text.empty() ? "" : " ") + function.inputs[i] + "=" + hex_number(row[i]);
     return text;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conformance/report/markup.h"
+#include "text.h"
 
 namespace vndf::conformance {
 
@@ -78,7 +79,7 @@ std::string values(const Function& function, const std::vector<double>& numbers,
 std::string eval_command(const Function& function, const std::vector<double>& row,
                          const CommandOf& evaluate) {
     std::vector<std::string> cells;
-    for (const double x : row) cells.push_back(fmt::format("{:a}", x));
+    for (const double x : row) cells.push_back(hex_number(x));
     return fmt::format("printf '%s\\n' {} {} | {}", fmt::join(function.inputs, ","), fmt::join(cells, ","),
                        evaluate(function));
 }
