@@ -28,11 +28,11 @@ inline std::string quoted_for_shell(std::string_view text) {
 
 // C99's hex: 0x1.8p-3. Not by fmt's {:a}, which in Debian 13 writes 0 as 0x0p-1022.
 inline std::string hex_number(double x) {
-    char text[32];
-    const char* const end = std::to_chars(text, text + sizeof text, std::abs(x), std::chars_format::hex).ptr;
-    std::string out = std::signbit(x) ? "-" : "";
-    if (std::isfinite(x)) out += "0x";
-    return out.append(text, static_cast<std::size_t>(end - text));
+    char digits[32];
+    *std::to_chars(digits, digits + sizeof digits - 1, std::abs(x), std::chars_format::hex).ptr = '\0';
+    std::string text = std::signbit(x) ? "-" : "";
+    if (std::isfinite(x)) text += "0x";
+    return text += digits;
 }
 
 // What stands between the separators: one part more than there are of them, some of them empty.

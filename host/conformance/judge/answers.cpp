@@ -24,8 +24,8 @@ std::string format_answers(runtime::Evaluator& evaluator, runtime::Math math,
                             fmt::join(function->outputs, ","));
         for (std::size_t i = 0; i < table.rows(); ++i) {
             text += function->name;
-            for (const auto& column : table.columns) text += "," + hex_number(column[i]);
-            for (const auto& column : results) text += "," + hex_number(column[i]);
+            for (const auto& column : table.columns) (text += ',') += hex_number(column[i]);
+            for (const auto& column : results) (text += ',') += hex_number(column[i]);
             text += '\n';
         }
     }

@@ -47,7 +47,7 @@ std::string hex_row(const Function& function, const std::vector<double>& row,
     std::string text;
     for (std::size_t i = 0; i < row.size(); ++i)
         if (!wanted || wanted(function.inputs[i]))
-            text += (text.empty() ? "" : " ") + function.inputs[i] + "=" + hex_number(row[i]);
+            text += fmt::format("{}{}={}", text.empty() ? "" : " ", function.inputs[i], hex_number(row[i]));
     return text;
 }
 
