@@ -27,7 +27,8 @@ inline std::string quoted_for_shell(std::string_view text) {
 }
 
 // C99's hex: 0x1.8p-3. Not by fmt's {:a}, which in Debian 13 writes 0 as 0x0p-1022.
-inline std::string hex_number(double x) {
+template <class R>
+std::string hex_number(R x) {
     char digits[32];
     *std::to_chars(digits, digits + sizeof digits - 1, std::abs(x), std::chars_format::hex).ptr = '\0';
     std::string text = std::signbit(x) ? "-" : "";

@@ -123,6 +123,10 @@ class Report {
     OutputFile measurements_, page_;
 };
 
+bool prints_table(const Bench& options) {
+    return !is_standard_output(options.json);
+}
+
 // Where the measurements of one device go.
 struct Outputs {
     std::unique_ptr<OutputFile> json;
@@ -160,8 +164,9 @@ Outputs outputs_of(const Bench& options, std::size_t at) {
 
 // A device at a time, since side by side they would disturb each other: all of --device all, each with a table and files of its
 // own, which are opened before anything is measured.
-void on_each_device(const Bench& options, Common& common, bool table,
+void on_each_device(const Bench& options, Common& common,
                     const std::function<void(const runtime::Device&, Outputs&)>& run) {
+    if (prints_table(options)) require_output();
     std::vector<Outputs> outputs;
     outputs.push_back(outputs_of(options, 0));
     const FreshCaches caches;
@@ -175,7 +180,7 @@ void on_each_device(const Bench& options, Common& common, bool table,
                                      options.json, devices.size()));
     for (std::size_t i = 1; i < devices.size(); ++i) outputs.push_back(outputs_of(options, i));
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (several && table) put("{}{}\n", i == 0 ? "" : "\n", devices[i].label());
+        if (several) put("{}{}\n", i == 0 ? "" : "\n", devices[i].label());
         run(devices[i], outputs[i]);
     }
 }
@@ -383,15 +388,13 @@ std::vector<bench::EffectCost> selected_programs(const std::string& only) {
 void run_effects(const Bench& options, Common& common) {
     common.require_one_process("bench --effects");
     const std::vector<bench::EffectCost> programs = selected_programs(options.only);
-    const bool table = !is_standard_output(options.json);
-    if (table) require_output();
-    on_each_device(options, common, table, [&](const runtime::Device& device, Outputs& outputs) {
+    on_each_device(options, common, [&](const runtime::Device& device, Outputs& outputs) {
         const Progress progress(common.quiet);
         const std::vector<bench::EffectCost> costs =
             bench::effect_costs(device, programs, options.repetitions == 0 ? 15 : options.repetitions,
                                 [&](double done) { progress("building and measuring", done); });
         progress.clear();
-        if (table) print_effects(costs);
+        if (prints_table(options)) print_effects(costs);
         if (!outputs.json) return;
         outputs.json->write(bench::effects_json(costs, {{"device", device.label()},
                                                         {"platform_version", device.platform_version},
@@ -525,7 +528,7 @@ void bench_device(const Bench& options, Common& common, const Selection& selecti
     if (!common.leads()) return;
     if (outputs.json) outputs.json->write(measurement.json), outputs.json->commit();
     const bench::Demand demand{options.error, options.front ? Domain::upper : Domain::sphere};
-    const bool table = !is_standard_output(options.json);
+    const bool table = prints_table(options);
     if (table && options.advise)
         print_advice(bench::advise(measurement.results, demand), demand, measurement.spread);
     if (table && !options.advise) print_measurement(measurement);
@@ -547,9 +550,7 @@ void run_bench(Bench options, Common& common) {
                         options.user.as));
     std::vector<bench::Result> baseline;
     if (!options.compare.empty()) baseline = bench::read_results(read_file(options.compare), options.compare);
-    const bool table = !is_standard_output(options.json);
-    if (table) require_output();
-    on_each_device(options, common, table, [&](const runtime::Device& device, Outputs& outputs) {
+    on_each_device(options, common, [&](const runtime::Device& device, Outputs& outputs) {
         bench_device(options, common, selection, user, baseline, device, outputs);
     });
 }

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "error.h"
+#include "text.h"
 
 namespace vndf::cli {
 namespace {
@@ -209,13 +210,12 @@ void append_number(std::string& out, R number, bool hex) {
         out += "nan";  // sign and payload are unspecified
         return;
     }
-    if (std::signbit(number)) out += '-';
-    number = std::fabs(number);
-    if (hex && std::isfinite(number)) out += "0x";
+    if (hex) {
+        out += hex_number(number);
+        return;
+    }
     char text[64];
-    const auto end = hex ? std::to_chars(text, text + sizeof text, number, std::chars_format::hex).ptr
-                         : std::to_chars(text, text + sizeof text, number).ptr;
-    out.append(text, end);
+    out.append(text, std::to_chars(text, text + sizeof text, number).ptr);
 }
 
 template class TableReader<float>;
